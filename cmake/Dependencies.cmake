@@ -1,0 +1,41 @@
+# Every library comes from Debian 12. One that is missing is named with the package that has it.
+find_package(PkgConfig)
+if(NOT PkgConfig_FOUND)
+  message(FATAL_ERROR "pkg-config is missing: apt-get install pkg-config")
+endif()
+
+function(esi_missing what package)
+  message(FATAL_ERROR "${what} is missing: apt-get install ${package}  (or run scripts/install-deps)")
+endfunction()
+
+macro(esi_find_package name package)
+  find_package(${name} QUIET ${ARGN})
+  if(NOT ${name}_FOUND)
+    esi_missing(${name} ${package})
+  endif()
+endmacro()
+
+# Makes the target PkgConfig::<module>, its headers treated as the system's.
+macro(esi_find_module module package)
+  pkg_check_modules(${module} QUIET IMPORTED_TARGET ${module})
+  if(NOT ${module}_FOUND)
+    esi_missing(${module} ${package})
+  endif()
+endmacro()
+
+esi_find_package(Threads libc6-dev)
+esi_find_package(OpenCV libopencv-dev COMPONENTS core imgproc imgcodecs videoio)
+esi_find_package(CLI11 libcli11-dev)
+esi_find_package(nlohmann_json nlohmann-json3-dev)
+esi_find_package(fmt libfmt-dev)
+esi_find_package(FlatBuffers libflatbuffers-dev)
+esi_find_package(pugixml libpugixml-dev)
+esi_find_module(hdf5 libhdf5-dev)
+esi_find_module(liblz4 liblz4-dev)
+esi_find_module(libzstd libzstd-dev)
+esi_find_module(zlib zlib1g-dev)
+
+find_program(FLATC flatc)
+if(NOT FLATC)
+  esi_missing(flatc flatbuffers-compiler)
+endif()
