@@ -1,0 +1,49 @@
+#include "esi/io/hdf5/handle.hpp"
+
+namespace esi {
+namespace {
+
+std::recursive_mutex& hdf5_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+herr_t collect(unsigned depth, const H5E_error2_t* entry, void* data) {
+  auto& failure = *static_cast<Hdf5Failure*>(data);
+  if (depth == 0 && entry->desc != nullptr) failure.reason = entry->desc;
+  failure.truncated |= entry->min_num == H5E_TRUNCATED;
+  failure.out_of_memory |= entry->maj_num == H5E_RESOURCE && entry->min_num == H5E_NOSPACE;
+  return 0;
+}
+
+}  // namespace
+
+Hdf5Lock::Hdf5Lock() : guard_(hdf5_mutex()) {
+  H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Lock::~Hdf5Lock() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+
+Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
+  if (this != &other) {
+    close();
+    id_ = std::exchange(other.id_, H5I_INVALID_HID);
+  }
+  return *this;
+}
+
+void Hdf5Handle::close() noexcept {
+  if (id_ < 0) return;
+  const Hdf5Lock lock;
+  H5Idec_ref(id_);
+}
+
+Hdf5Failure last_hdf5_failure() {
+  Hdf5Failure failure;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, collect, &failure);
+  if (failure.reason.empty()) failure.reason = "HDF5 gives no reason";
+  return failure;
+}
+
+}  // namespace esi

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace esi {
+
+/// libhdf5 is not thread-safe and prints its errors to stderr: whoever calls it holds this, which keeps other
+/// threads out and the printing off. May be nested.
+class Hdf5Lock {
+ public:
+  Hdf5Lock();
+  ~Hdf5Lock();
+  Hdf5Lock(const Hdf5Lock&) = delete;
+  Hdf5Lock& operator=(const Hdf5Lock&) = delete;
+
+ private:
+  std::lock_guard<std::recursive_mutex> guard_;
+  H5E_auto2_t print_ = nullptr;
+  void* print_data_ = nullptr;
+};
+
+/// Owns one HDF5 identifier of any kind: file, dataset, data space, type, property list.
+class Hdf5Handle {
+ public:
+  Hdf5Handle() = default;
+  explicit Hdf5Handle(hid_t id) : id_(id) {}
+  ~Hdf5Handle() { close(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
+
+  hid_t get() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  void close() noexcept;
+
+  hid_t id_ = H5I_INVALID_HID;
+};
+
+/// Why the last HDF5 call failed. To be asked for under the same Hdf5Lock (taking one forgets it) and before
+/// the next call.
+struct Hdf5Failure {
+  std::string reason;  ///< the innermost entry of HDF5's error stack
+  bool truncated = false;
+  bool out_of_memory = false;
+};
+Hdf5Failure last_hdf5_failure();
+
+}  // namespace esi

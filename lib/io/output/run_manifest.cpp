@@ -1,0 +1,69 @@
+#include "esi/io/output/run_manifest.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <ctime>
+
+#include "esi/core/version.hpp"
+#include "esi/io/recording_info.hpp"
+
+namespace esi {
+namespace {
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+nlohmann::json recording_json(const RunManifest& manifest) {
+  const auto t_first_us = manifest.digest.t_first_us();
+  return {
+      {"path", manifest.recording},
+      {"format", manifest.header.format},
+      {"layout", manifest.header.layout},
+      {"width", manifest.size.width_px},
+      {"height", manifest.size.height_px},
+      {"time_zero_us", manifest.time_zero_us},
+      {"t_first_us", t_first_us ? nlohmann::json(*t_first_us + manifest.time_zero_us) : nlohmann::json()},
+      {"duration_us", manifest.digest.duration_us()},
+      {"notes", manifest.header.notes},
+  };
+}
+
+nlohmann::json events_json(const RunManifest& manifest) {
+  const std::int64_t used = manifest.digest.events();
+  return {
+      {"read", used + manifest.losses.dropped()},
+      {"used", used},
+      {"on", manifest.digest.on()},
+      {"crc32", manifest.digest.crc32()},
+      {"dropped", dropped_json(manifest.losses)},
+      {"damaged", damaged_json(manifest.losses)},
+  };
+}
+
+}  // namespace
+
+std::string to_text(const RunManifest& manifest) {
+  const nlohmann::json json = {
+      {"tool", manifest.tool},
+      {"version", version()},
+      {"recording", recording_json(manifest)},
+      {"events", events_json(manifest)},
+      {"intensity_frames", manifest.intensity_frames},
+      {"frames", manifest.frames},
+      {"config", manifest.config},
+      {"fingerprint", manifest.fingerprint},
+      {"run",
+       {{"threads", manifest.run.threads},
+        {"wall_s", manifest.run.wall_s},
+        {"host", host_name()},
+        {"date", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}}},
+  };
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace esi

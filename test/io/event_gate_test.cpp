@@ -1,0 +1,173 @@
+#include "esi/io/event_gate.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "esi/core/error.hpp"
+#include "support/scripted_reader.hpp"
+
+using namespace esi;
+using namespace esi::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+EventGate gate_over(std::vector<Packet> packets, const ReadOptions& options = {},
+                    RecordingHeader header = {}) {
+  return {std::make_unique<ScriptedReader>(std::move(packets), std::move(header)), options, "rec"};
+}
+
+std::vector<Event> events_at(const std::vector<std::int64_t>& times_us) {
+  std::vector<Event> events;
+  for (const std::int64_t t_us : times_us) {
+    events.push_back({t_us, static_cast<std::uint16_t>(events.size()), 0, true});
+  }
+  return events;
+}
+
+std::vector<std::int64_t> times_of(const std::vector<Event>& events) {
+  std::vector<std::int64_t> times_us;
+  for (const Event& event : events) times_us.push_back(event.t_us);
+  return times_us;
+}
+
+IntensityFrame frame_over(Interval exposure) { return {exposure, cv::Mat1b(1, 1)}; }
+
+}  // namespace
+
+TEST_CASE("a good recording passes unchanged, however it is cut") {
+  std::mt19937 random(7);
+  std::vector<Event> events;
+  for (std::int64_t t_us = 0; events.size() < 5000; t_us += std::uniform_int_distribution(0, 40)(random)) {
+    events.push_back({t_us, static_cast<std::uint16_t>(random() % 300), 3, random() % 2 == 0});
+  }
+  const auto packet_size = GENERATE(1u, 17u, 1000u, 100000u);
+  EventGate gate = gate_over(packets_of(events, packet_size));
+  CHECK(drain(gate).events == events);
+  CHECK_FALSE(gate.losses().any());
+}
+
+TEST_CASE("jitter is sorted across packets and counted, with ties in the file's order") {
+  const auto packet_size = GENERATE(1u, 2u, 3u, 100u);
+  EventGate gate = gate_over(packets_of(events_at({0, 1500, 1000, 1500, 2600, 2400, 1601}), packet_size));
+  const Packet all = drain(gate);
+  CHECK(times_of(all.events) == std::vector<std::int64_t>{0, 1000, 1500, 1500, 1601, 2400, 2600});
+  CHECK(all.events[2].x == 1);
+  CHECK(all.events[3].x == 3);
+  CHECK(gate.losses().of(Damage::sorted_jitter) == 3);
+  CHECK(gate.losses().dropped() == 0);
+}
+
+TEST_CASE("time that goes back by more than the jitter window is left out, by more than a second an error") {
+  EventGate gate = gate_over(packets_of(events_at({0, 5000, 3999, 4000, 6000}), 2));
+  CHECK(times_of(drain(gate).events) == std::vector<std::int64_t>{0, 4000, 5000, 6000});
+  CHECK(gate.losses().of(Drop::backward_time) == 1);
+
+  EventGate broken = gate_over(packets_of(events_at({0, 2000000, 999999}), 1));
+  CHECK_THROWS_WITH(drain(broken), Contains("rec: time goes back by 1000001 us"));
+}
+
+TEST_CASE("events outside the sensor are left out and counted, and too many are an error") {
+  std::vector<Event> events(1000, Event{5, 9, 9, true});
+  for (std::size_t i = 0; i < 10; ++i) events[i * 7].x = 10;
+  ReadOptions options;
+  options.size = "10x10";
+  EventGate gate = gate_over(packets_of(events, 100), options);
+  CHECK(drain(gate).events.size() == 990);
+  CHECK(gate.losses().of(Drop::outside_sensor) == 10);
+
+  events[500].y = 25;
+  EventGate too_many = gate_over(packets_of(events, 100), options);
+  CHECK_THROWS_WITH(drain(too_many), Contains("11 of 1000") && Contains("largest x is 10, the largest y 25"));
+}
+
+TEST_CASE("--size overrides the file's own sensor size; without either there is none") {
+  RecordingHeader header;
+  header.sensor = SensorSize{20, 20};
+  ReadOptions options;
+  CHECK(gate_over({}, options, header).sensor_size() == SensorSize{20, 20});
+  options.size = "30x10";
+  CHECK(gate_over({}, options, header).sensor_size() == SensorSize{30, 10});
+  CHECK_FALSE(gate_over({}).sensor_size().has_value());
+}
+
+TEST_CASE("the clock's zero is the file's within an hour of the start, else the first event") {
+  struct Row {
+    std::int64_t t_first_us;
+    TimeZero time_zero;
+    std::int64_t zero_us;
+  };
+  constexpr std::int64_t kHour_us = 3600000000;
+  const auto row = GENERATE(Row{5, TimeZero::automatic, 0}, Row{kHour_us - 1, TimeZero::automatic, 0},
+                            Row{kHour_us, TimeZero::automatic, kHour_us}, Row{-5, TimeZero::automatic, 0},
+                            Row{1744227144732712, TimeZero::automatic, 1744227144732712},
+                            Row{1744227144732712, TimeZero::file, 0}, Row{5, TimeZero::first_event, 5});
+  ReadOptions options;
+  options.time_zero = row.time_zero;
+  Packet packet;
+  packet.events = events_at({row.t_first_us, row.t_first_us + 7});
+  packet.frames = {frame_over({row.t_first_us - 3, row.t_first_us + 2})};
+  packet.packet_ends_us = {row.t_first_us + 8};
+  EventGate gate = gate_over({packet}, options);
+  const Packet all = drain(gate);
+  const std::int64_t first = row.t_first_us - row.zero_us;
+  CHECK(gate.time_zero_us() == row.zero_us);
+  CHECK(times_of(all.events) == std::vector<std::int64_t>{first, first + 7});
+  REQUIRE(all.frames.size() == 1);
+  CHECK(all.frames[0].exposure == Interval{first - 3, first + 2});
+  CHECK(all.packet_ends_us == std::vector<std::int64_t>{first + 8});
+}
+
+TEST_CASE("intensity frames before the first event wait for the clock's zero") {
+  Packet early, late;
+  early.frames = {frame_over({9000000000, 9000000100})};
+  late.events = events_at({9000000050, 9000005000});
+  EventGate gate = gate_over({early, late});
+  const Packet all = drain(gate);
+  REQUIRE(all.frames.size() == 1);
+  CHECK(all.frames[0].exposure == Interval{-50, 50});
+}
+
+TEST_CASE("intensity frames without any events do not pile up") {
+  std::vector<Packet> packets(500);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const auto t_us = 9000000000 + static_cast<std::int64_t>(i);
+    packets[i].frames = {frame_over({t_us, t_us})};
+  }
+  EventGate gate = gate_over(packets);
+  Packet packet;
+  std::size_t frames = 0;
+  while (gate.next(packet)) {
+    CHECK(packet.frames.size() <= 70);
+    frames += packet.frames.size();
+  }
+  CHECK(frames == 500);
+}
+
+TEST_CASE("a flood of events at one time is passed on in bounded pieces") {
+  const std::vector<Event> events(400000, Event{3, 1, 1, true});
+  EventGate gate = gate_over(packets_of(events, 8192));
+  Packet packet;
+  std::size_t count = 0;
+  while (gate.next(packet)) {
+    CHECK(packet.events.size() < 200000);
+    count += packet.events.size();
+  }
+  CHECK(count == events.size());
+}
+
+TEST_CASE("strict allows no loss") {
+  ReadOptions options;
+  options.strict = true;
+  EventGate gate = gate_over(packets_of(events_at({0, 1000, 500}), 3), options);
+  CHECK_THROWS_WITH(drain(gate), Contains("sorted_jitter") && Contains("--strict"));
+}
+
+TEST_CASE("absurd times are errors, not overflows") {
+  const std::int64_t t_us = GENERATE(INT64_MAX, INT64_MIN, std::int64_t{1} << 61);
+  EventGate first = gate_over(packets_of(events_at({t_us}), 1));
+  CHECK_THROWS_WITH(drain(first), Contains("can't be right"));
+  EventGate later = gate_over(packets_of(events_at({0, t_us}), 1));
+  CHECK_THROWS_WITH(drain(later), Contains("can't be right") || Contains("goes back"));
+}
