@@ -1,0 +1,186 @@
+#include "esi/recon/esi.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+
+#include "esi/core/error.hpp"
+
+namespace esi {
+namespace {
+
+/// Times of events lie within 0..kEpochSpan_us after the epoch, those of pixels within +-kEpochSpan_us, so
+/// that differences fit in 31 bits. Longer than the longest support.
+constexpr std::int32_t kEpochSpan_us = (1 << 30) - 1;
+
+/// Pixels are fetched this many events ahead: early enough for the L3 cache, late enough to stay in L1.
+constexpr std::size_t kPrefetchEvents = 16;
+
+/// A narrower range of E would make grey levels of rounding errors.
+constexpr double kLeastRange = 0.001;
+
+/// E <- clamp(gamma(dt) E + c p), with everything the loop needs at hand.
+struct Integrator {
+  std::array<float, 2> c;  ///< what an OFF and an ON event add
+  float e_min;
+  float e_max;
+  std::uint32_t width_px;
+  std::int64_t epoch_us;
+
+  Integrator(const EsiOptions& options, SensorSize size, std::int64_t epoch)
+      : c{-static_cast<float>(options.c_off), static_cast<float>(options.c_on)},
+        e_min(static_cast<float>(options.e_min)),
+        e_max(static_cast<float>(options.e_max)),
+        width_px(static_cast<std::uint32_t>(size.width_px)),
+        epoch_us(epoch) {}
+
+  /// No branches: the polarity selects from a table, the clamp is a maximum and a minimum.
+  template <class Loss>
+  void add(std::span<const Event> events, const Loss& loss, EsiPixel* pixels) const {
+    const Integrator self = *this;  // a local, so that stores to pixels can't change it
+    const auto pixel_of = [&self, pixels](const Event& event) {
+      return pixels + (event.y * self.width_px + event.x);
+    };
+    const auto take = [&](const Event& event) {
+      EsiPixel& pixel = *pixel_of(event);
+      const auto t_us = static_cast<std::int32_t>(event.t_us - self.epoch_us);
+      const float e = pixel.e - pixel.e * loss(t_us - pixel.t_us) + self.c[event.on];
+      pixel = {std::min(std::max(e, self.e_min), self.e_max), t_us};
+    };
+    const std::size_t tail = std::min(kPrefetchEvents, events.size());
+    for (const Event& event : events.first(events.size() - tail)) {
+      __builtin_prefetch(pixel_of(*(&event + kPrefetchEvents)), 1);
+      take(event);
+    }
+    for (const Event& event : events.last(tail)) take(event);
+  }
+};
+
+/// I = 255 (E - e_min) / (e_max - e_min), rounded.
+struct Readout {
+  float scale;
+  float offset;
+
+  explicit Readout(const EsiOptions& options)
+      : scale(static_cast<float>(255.0 / (options.e_max - options.e_min))),
+        offset(static_cast<float>(0.5 - 255.0 * options.e_min / (options.e_max - options.e_min))) {}
+
+  std::uint8_t grey_of(float e) const {
+    return static_cast<std::uint8_t>(static_cast<std::int32_t>(e * scale + offset));
+  }
+
+  void show(std::span<const EsiPixel> pixels, std::uint8_t* grey) const {
+    for (std::size_t x = 0; x < pixels.size(); ++x) grey[x] = grey_of(pixels[x].e);
+  }
+
+  template <class Loss>
+  void show_decayed(std::span<const EsiPixel> pixels, std::int32_t t_us, const Loss& loss,
+                    std::uint8_t* grey) const {
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      grey[x] = grey_of(pixels[x].e - pixels[x].e * loss(t_us - pixels[x].t_us));
+    }
+  }
+};
+
+std::vector<EsiPixel> pixels_of(SensorSize size) {
+  const auto count = static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px);
+  try {
+    return std::vector<EsiPixel>(count);
+  } catch (const std::bad_alloc&) {
+    throw Error(fmt::format("esi: a sensor of {} px needs {:.1f} GB of memory, more than there is",
+                            to_string(size), static_cast<double>(count * sizeof(EsiPixel)) * 1e-9));
+  }
+}
+
+}  // namespace
+
+void EsiOptions::declare(OptionTable& table) {
+  decay.declare(table);
+  table.real("c_on", c_on, {0.001, 1000.0}, "", "what an ON event adds to E");
+  table.real("c_off", c_off, {0.001, 1000.0}, "", "what an OFF event takes from E");
+  table.real("e_min", e_min, {-1e6, 1e6}, "", "lower bound of E, shown black");
+  table.real("e_max", e_max, {-1e6, 1e6}, "", "upper bound of E, shown white");
+  table.toggle("readout_decay", readout_decay, "fade E to the frame's time before it is shown");
+}
+
+void EsiOptions::check() const {
+  if (e_max - e_min >= kLeastRange && e_min <= 0.0 && e_max >= 0.0) return;
+  throw usage_error(fmt::format("e_min {} and e_max {}: write e_min <= 0 <= e_max, at least {} apart", e_min,
+                                e_max, kLeastRange));
+}
+
+Esi::Esi(const EsiOptions& options, SensorSize size)
+    : options_(options), size_(size), loss_(loss_of(options.decay)), pixels_(pixels_of(size)) {
+  options_.check();
+}
+
+void Esi::process(std::span<const Event> events) {
+  if (events.empty()) return;
+  if (!has_events_) epoch_us_ = events.front().t_us;
+  has_events_ = true;
+  t_last_us_ = events.back().t_us;
+  while (!events.empty()) {
+    const std::size_t near = events_near_epoch(events);
+    const Integrator integrator(options_, size_, epoch_us_);
+    std::visit([&](const auto& loss) { integrator.add(events.first(near), loss, pixels_.data()); }, loss_);
+    events = events.subspan(near);
+    if (events.empty()) return;
+    // At this event, whichever call brings it: how events are cut into calls leaves no trace.
+    move_epoch(events.front().t_us - epoch_us_, pixels_);
+    epoch_us_ = events.front().t_us;
+  }
+}
+
+std::size_t Esi::events_near_epoch(std::span<const Event> events) const {
+  const auto is_near = [this](const Event& event) { return event.t_us - epoch_us_ <= kEpochSpan_us; };
+  return static_cast<std::size_t>(std::partition_point(events.begin(), events.end(), is_near) -
+                                  events.begin());
+}
+
+void Esi::move_epoch(std::int64_t by_us, std::span<EsiPixel> pixels) const {
+  // Only a slow exponential has a memory longer than kEpochSpan_us, and can be applied in parts.
+  const bool is_longer = std::visit([](const auto& loss) { return loss(kEpochSpan_us); }, loss_) < 1.0F;
+  for (EsiPixel& pixel : pixels) {
+    const std::int64_t t_us = std::max<std::int64_t>(pixel.t_us - by_us, -kEpochSpan_us);
+    const auto left_out_us = static_cast<double>(t_us - (pixel.t_us - by_us));
+    if (is_longer) pixel.e = static_cast<float>(pixel.e * gamma(options_.decay, left_out_us));
+    pixel.t_us = static_cast<std::int32_t>(t_us);
+  }
+}
+
+void Esi::render(std::int64_t t_us, cv::Mat1b& grey) {
+  grey.create(size_.height_px, size_.width_px);
+  if (options_.readout_decay) {
+    render_decayed(std::max(t_us, t_last_us_) - epoch_us_, grey);
+    return;
+  }
+  const Readout readout(options_);
+  for (int y = 0; y < grey.rows; ++y) readout.show(row(pixels_, y), grey[y]);
+}
+
+void Esi::render_decayed(std::int64_t since_epoch_us, cv::Mat1b& grey) const {
+  std::span<const EsiPixel> state = pixels_;
+  std::vector<EsiPixel> moved;
+  if (since_epoch_us > kEpochSpan_us) {
+    moved = pixels_;
+    move_epoch(since_epoch_us, moved);
+    state = moved;
+    since_epoch_us = 0;
+  }
+  const Readout readout(options_);
+  const auto t_us = static_cast<std::int32_t>(since_epoch_us);
+  const auto show = [&](const auto& loss) {
+    for (int y = 0; y < grey.rows; ++y) readout.show_decayed(row(state, y), t_us, loss, grey[y]);
+  };
+  std::visit(show, loss_);
+}
+
+std::span<const EsiPixel> Esi::row(std::span<const EsiPixel> pixels, int y) const {
+  const auto width = static_cast<std::size_t>(size_.width_px);
+  return pixels.subspan(static_cast<std::size_t>(y) * width, width);
+}
+
+}  // namespace esi

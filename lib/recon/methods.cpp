@@ -1,0 +1,53 @@
+#include "esi/recon/methods.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "esi/core/error.hpp"
+#include "esi/recon/esi.hpp"
+
+namespace esi {
+namespace {
+
+/// Joins a method's Options (with `declare`) to its Reconstructor, made from (Options, SensorSize).
+template <class Options, class Made>
+class Config final : public MethodConfig {
+ public:
+  OptionTable& options() override { return table_; }
+  std::unique_ptr<Reconstructor> create(SensorSize size) const override {
+    return std::make_unique<Made>(values_, size);
+  }
+
+ private:
+  Options values_;
+  OptionTable table_ = table_of(values_);
+};
+
+template <class Options, class Made>
+std::unique_ptr<MethodConfig> configure() {
+  return std::make_unique<Config<Options, Made>>();
+}
+
+constexpr std::array kMethods{
+    Method{"esi", "event-based single integration: decay, add, clamp", "Dong et al. 2025, arXiv 2508.02238",
+           configure<EsiOptions, Esi>},
+};
+
+}  // namespace
+
+std::span<const Method> methods() { return kMethods; }
+
+const Method& method_named(std::string_view name) {
+  const auto is_named = [name](const Method& method) { return method.name == name; };
+  const auto found = std::find_if(kMethods.begin(), kMethods.end(), is_named);
+  if (found != kMethods.end()) return *found;
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) names.emplace_back(method.name);
+  throw usage_error(
+      fmt::format("method '{}' is not known; did you mean '{}'?", name, nearest_name(name, names)));
+}
+
+}  // namespace esi

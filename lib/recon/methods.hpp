@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "esi/core/event.hpp"
+#include "esi/core/options.hpp"
+#include "esi/recon/reconstructor.hpp"
+
+namespace esi {
+
+/// A method with values for its options: what --set and a config change, and what makes reconstructors.
+class MethodConfig {
+ public:
+  virtual ~MethodConfig() = default;
+  virtual OptionTable& options() = 0;
+  /// Throws a usage Error on values that don't go together.
+  virtual std::unique_ptr<Reconstructor> create(SensorSize size) const = 0;
+};
+
+/// One row of the methods table.
+struct Method {
+  std::string_view name;                         ///< as --method takes it
+  std::string_view summary;                      ///< one line
+  std::string_view source;                       ///< paper
+  std::unique_ptr<MethodConfig> (*configure)();  ///< with the method's defaults
+};
+
+/// Every known method.
+std::span<const Method> methods();
+
+/// Throws a usage Error that names the nearest known method.
+const Method& method_named(std::string_view name);
+
+}  // namespace esi
