@@ -1,0 +1,54 @@
+#include "progress_bar.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace esi::cli {
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr std::chrono::milliseconds kRefresh{100};
+
+bool is_capable_terminal() {
+  const char* const term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+std::string bar(double fraction) {
+  const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
+  return "[" + std::string(full, '#') + std::string(kBarWidth - full, '.') + "] ";
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(bool wanted) : is_shown_(wanted && is_capable_terminal()) {}
+
+ProgressBar::~ProgressBar() {
+  if (is_shown_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void ProgressBar::show(std::int64_t events, std::int64_t frames, std::int64_t t_us,
+                       std::optional<double> fraction) {
+  const auto now = Clock::now();
+  if (!t_begin_us_) t_begin_us_ = t_us;
+  if (!is_shown_ || now < next_) return;
+  next_ = now + kRefresh;
+  const double elapsed_s = std::max(1e-3, std::chrono::duration<double>(now - started_).count());
+  std::string line = fraction ? bar(*fraction) : "";
+  line +=
+      fmt::format("{:.1f} Mev, {} frames, {:.1f} Mev/s, {:.1f} x real time",
+                  static_cast<double>(events) * 1e-6, frames, static_cast<double>(events) * 1e-6 / elapsed_s,
+                  static_cast<double>(t_us - *t_begin_us_) * 1e-6 / elapsed_s);
+  if (fraction && *fraction > 0.01) {
+    line += fmt::format(", {:.0f} s left", elapsed_s / *fraction * (1.0 - *fraction));
+  }
+  fmt::print(stderr, "\r\x1b[K{}", line);
+  std::fflush(stderr);
+}
+
+}  // namespace esi::cli

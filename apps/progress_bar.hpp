@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace esi::cli {
+
+/// A line on a terminal that is rewritten about ten times a second. Elsewhere it says nothing.
+class ProgressBar {
+ public:
+  /// `wanted` is false with --quiet; a stderr that is no terminal, or TERM=dumb, has none either.
+  explicit ProgressBar(bool wanted);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// `t_us` is the recording's time so far, `fraction` how much of it has been read.
+  void show(std::int64_t events, std::int64_t frames, std::int64_t t_us, std::optional<double> fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_shown_;
+  Clock::time_point started_ = Clock::now();
+  Clock::time_point next_ = started_;
+  std::optional<std::int64_t> t_begin_us_;
+};
+
+}  // namespace esi::cli

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "esi/io/output/frame_sink.hpp"
+#include "esi/io/read_options.hpp"
+#include "esi/pipeline/frame_options.hpp"
+#include "esi/recon/methods.hpp"
+
+namespace esi {
+
+/// Everything that decides which frames come out of a recording. As JSON:
+/// {"method": "esi", "set": {"tau_s": 2.0, ...}, "fps": 100.0, "size": "346x260", ...}
+class ReconConfig {
+ public:
+  ReconConfig();
+
+  ReadOptions read;
+  FrameOptions frames;
+  SinkOptions sink;
+
+  const Method& method() const { return *method_; }
+  const MethodConfig& method_config() const { return *method_config_; }
+
+  /// Chooses a method, with that method's defaults. A name of the table, or the path of a config file.
+  void choose_method(const std::string& name_or_file);
+  /// "key=value" for an option of the method.
+  void set(std::string_view assignment);
+  /// Takes a config file's content; `name` is what messages call it.
+  void set_json(const nlohmann::json& config, const std::string& name);
+  void load(const std::filesystem::path& file);
+
+  nlohmann::json json() const;
+
+  /// The options besides the method's, by group, for flags and --help.
+  struct Group {
+    std::string title;
+    OptionTable table;
+  };
+  std::vector<Group> groups();
+
+ private:
+  const Method* method_;
+  std::unique_ptr<MethodConfig> method_config_;
+};
+
+}  // namespace esi

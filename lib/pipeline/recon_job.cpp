@@ -1,0 +1,102 @@
+#include "esi/pipeline/recon_job.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "esi/core/error.hpp"
+#include "esi/io/output/run_manifest.hpp"
+#include "esi/pipeline/memory_limit.hpp"
+
+namespace esi {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// State, image and encoder of the hungriest sensible method; only absurd sizes come near any limit.
+constexpr std::uint64_t kBytesPerPixel = 32;
+
+std::string name_of(const ReconJob& job) {
+  return job.recording == "-" ? "standard input" : job.recording.string();
+}
+
+void refuse_same_file(const ReconJob& job) {
+  std::error_code absent;
+  if (fs::equivalent(job.recording, job.output, absent)) {
+    throw usage_error(
+        fmt::format("{}: the output would overwrite the recording; give another -o", job.output.string()));
+  }
+}
+
+// FNV-1a, 64 bits: equal for the same recording (path and size) and options, else almost surely different.
+std::string fingerprint_of(const ReconJob& job, const nlohmann::json& config) {
+  std::error_code no_file;
+  const auto bytes = fs::file_size(job.recording, no_file);
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : fmt::format("{}\n{}\n{}", job.recording.string(), no_file ? 0 : bytes, config.dump())) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+void refuse_missing_packets(const EventSource& source, const FrameOptions& frames, const std::string& name) {
+  if (!frames.packets || source.header().has_packets) return;
+  throw usage_error(fmt::format("{}: the file ({}) is not made of packets; use --fps instead of --packets",
+                                name, source.header().layout));
+}
+
+void refuse_nothing(const Reconstruction& result, const EventSource& source, const std::string& name) {
+  if (result.digest.events() > 0 || result.stopped) return;
+  const std::string lost = source.losses().any() ? " (lost: " + source.losses().text() + ")" : "";
+  throw Error(fmt::format("{}: there are no events{} in the part that was asked for", name, lost));
+}
+
+}  // namespace
+
+ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observer& observer) {
+  const auto started = Clock::now();
+  const std::string name = name_of(job);
+  config.frames.check();
+  refuse_same_file(job);
+  const auto schedule = config.frames.make_schedule();
+  CropSource source(open_recording(job.recording, config.read), config.frames.interval(),
+                    config.frames.region());
+  refuse_missing_packets(source, config.frames, name);
+
+  ReconReport report;
+  report.size = require_sensor_size(source, name);
+  require_memory(kBytesPerPixel * static_cast<std::uint64_t>(report.size.width_px) *
+                     static_cast<std::uint64_t>(report.size.height_px),
+                 "a sensor of " + to_string(report.size));
+  const auto method = config.method_config().create(report.size);
+  const nlohmann::json effective = config.json();
+  const std::string fingerprint = fingerprint_of(job, effective);
+  const auto sink = open_frame_sink(job.output, config.sink,
+                                    {report.size, config.frames.video_fps(), job.threads, fingerprint});
+
+  report.result = reconstruct(source, *schedule, *method, *sink, config.frames.max_frames, observer);
+  report.losses = source.losses();
+  report.wall_s = std::chrono::duration<double>(Clock::now() - started).count();
+  if (report.result.stopped) {
+    sink->stop();
+    return report;
+  }
+  refuse_nothing(report.result, source, name);
+  sink->finish(to_text(RunManifest{job.tool,
+                                   job.recording.string(),
+                                   source.header(),
+                                   report.size,
+                                   report.result.digest,
+                                   source.time_zero_us(),
+                                   report.losses,
+                                   report.result.frames,
+                                   report.result.intensity_frames,
+                                   effective,
+                                   fingerprint,
+                                   {job.threads, report.wall_s}}));
+  return report;
+}
+
+}  // namespace esi

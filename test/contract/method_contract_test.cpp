@@ -1,0 +1,264 @@
+// What every method of the table promises, whatever it does inside.
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "esi/core/error.hpp"
+#include "esi/pipeline/recon_config.hpp"
+#include "esi/recon/methods.hpp"
+#include "support/random_events.hpp"
+#include "support/shared_data.hpp"
+
+using namespace esi;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr SensorSize kSize{40, 32};
+/// Events keep away this far from the border, so that a shift keeps them inside.
+constexpr int kMargin = 8;
+
+std::vector<Event> scene(unsigned seed) {
+  const test::Region inner{kMargin, kMargin, kSize.width_px - 2 * kMargin, kSize.height_px - 2 * kMargin};
+  return test::random_events(inner, 20000, 20, seed);
+}
+
+std::vector<Event> shifted(std::vector<Event> events, std::int64_t t_us, int x, int y) {
+  for (Event& event : events) {
+    event.t_us += t_us;
+    event.x = static_cast<std::uint16_t>(event.x + x);
+    event.y = static_cast<std::uint16_t>(event.y + y);
+  }
+  return events;
+}
+
+/// Frames every 50 ms from t0_us on, the events given in calls of `call_size()` each.
+template <class CallSize>
+std::vector<cv::Mat1b> frames_of(Reconstructor& reconstructor, std::span<const Event> events,
+                                 std::int64_t t0_us, CallSize call_size) {
+  std::vector<cv::Mat1b> frames;
+  while (!events.empty()) {
+    const std::int64_t t_us = t0_us + static_cast<std::int64_t>(frames.size() + 1) * 50000;
+    std::size_t due = 0;
+    while (due < events.size() && events[due].t_us < t_us) ++due;
+    while (due > 0) {
+      const std::size_t count = std::min<std::size_t>(due, call_size());
+      reconstructor.process(events.first(count));
+      events = events.subspan(count);
+      due -= count;
+    }
+    reconstructor.render(t_us, frames.emplace_back());
+  }
+  return frames;
+}
+
+std::vector<cv::Mat1b> frames_of(const MethodConfig& config, std::span<const Event> events,
+                                 std::int64_t t0_us = 0) {
+  const auto reconstructor = config.create(kSize);
+  return frames_of(*reconstructor, events, t0_us, [] { return std::size_t{1000000}; });
+}
+
+bool are_equal(const cv::Mat1b& a, const cv::Mat1b& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+bool is_flat(const cv::Mat1b& grey) {
+  double low = 0.0;
+  double high = 0.0;
+  cv::minMaxLoc(grey, &low, &high);
+  return low == high;
+}
+
+/// Runs `check` for every method, and again for each of its choices and switches.
+template <class Check>
+void for_each_variant(Check check) {
+  for (const Method& method : methods()) {
+    INFO("method " << method.name);
+    check(*method.configure());
+    const auto defaults = method.configure();
+    for (const Option& option : defaults->options().options()) {
+      const auto value = option.json();
+      const auto variant = method.configure();
+      if (option.is_switch()) {
+        INFO(option.name() << " switched");
+        variant->options().at(option.name()).set_json(!value.get<bool>());
+        check(*variant);
+      } else if (option.domain().find(" | ") != std::string::npos) {
+        std::stringstream names(option.domain());
+        for (std::string name; names >> name;) {
+          if (name == "|") continue;
+          INFO(option.name() << "=" << name);
+          variant->options().at(option.name()).set_text(name);
+          check(*variant);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("methods have names of their own, a summary and a source") {
+  std::set<std::string_view> names;
+  for (const Method& method : methods()) {
+    CHECK(names.insert(method.name).second);
+    CHECK_FALSE(method.summary.empty());
+    CHECK_FALSE(method.source.empty());
+    CHECK(&method_named(method.name) == &method);
+  }
+  CHECK(names.count("esi") == 1);
+  CHECK_THROWS_WITH(method_named("esl"), Contains("'esl'") && Contains("'esi'"));
+}
+
+TEST_CASE("frames don't depend on how the events are cut into calls") {
+  const std::vector<Event> events = scene(1);
+  for_each_variant([&](const MethodConfig& config) {
+    const auto expected = frames_of(config, events);
+    REQUIRE(expected.size() > 5);
+    std::mt19937 random(2);
+    for (const unsigned largest : {1U, 3U, 500U}) {
+      const auto cut = config.create(kSize);
+      const auto frames = frames_of(
+          *cut, events, 0, [&] { return std::size_t{1} + static_cast<std::size_t>(random() % largest); });
+      REQUIRE(frames.size() == expected.size());
+      for (std::size_t k = 0; k < frames.size(); ++k) REQUIRE(are_equal(frames[k], expected[k]));
+    }
+    const auto with_empty_calls = config.create(kSize);
+    with_empty_calls->process({});
+    with_empty_calls->process(events);
+    with_empty_calls->process({});
+    cv::Mat1b last;
+    with_empty_calls->render(static_cast<std::int64_t>(expected.size()) * 50000, last);
+    REQUIRE(are_equal(last, expected.back()));
+  });
+}
+
+TEST_CASE("a recording without events gives flat images, and one with events doesn't") {
+  const std::vector<Event> events = scene(3);
+  for_each_variant([&](const MethodConfig& config) {
+    const auto reconstructor = config.create(kSize);
+    cv::Mat1b grey;
+    for (const std::int64_t t_us : {std::int64_t{0}, std::int64_t{10000}, std::int64_t{1} << 50}) {
+      reconstructor->render(t_us, grey);
+      REQUIRE(grey.size() == cv::Size(kSize.width_px, kSize.height_px));
+      REQUIRE(is_flat(grey));
+    }
+    REQUIRE_FALSE(is_flat(frames_of(config, events).back()));
+  });
+}
+
+TEST_CASE("a shift in time shifts the frames") {
+  const std::vector<Event> events = scene(4);
+  for_each_variant([&](const MethodConfig& config) {
+    const auto expected = frames_of(config, events);
+    for (const std::int64_t t_us :
+         {std::int64_t{1}, std::int64_t{-7000000}, std::int64_t{1700000000000000}}) {
+      const auto frames = frames_of(config, shifted(events, t_us, 0, 0), t_us);
+      REQUIRE(frames.size() == expected.size());
+      for (std::size_t k = 0; k < frames.size(); ++k) REQUIRE(are_equal(frames[k], expected[k]));
+    }
+  });
+}
+
+TEST_CASE("a shift in space shifts the images") {
+  const std::vector<Event> events = scene(5);
+  const cv::Rect inner(kMargin, kMargin, kSize.width_px - 2 * kMargin, kSize.height_px - 2 * kMargin);
+  for_each_variant([&](const MethodConfig& config) {
+    const cv::Mat1b expected = frames_of(config, events).back();
+    for (const auto& [x, y] : {std::pair(3, 0), std::pair(0, -5), std::pair(-8, 8)}) {
+      const cv::Mat1b moved = frames_of(config, shifted(events, 0, x, y)).back();
+      REQUIRE(are_equal(moved(inner + cv::Point(x, y)), expected(inner)));
+      REQUIRE_FALSE(are_equal(moved(inner), expected(inner)));
+    }
+  });
+}
+
+TEST_CASE("the image takes the sensor's size, whatever the caller hands over") {
+  const std::vector<Event> events = scene(6);
+  for_each_variant([&](const MethodConfig& config) {
+    const cv::Mat1b expected = frames_of(config, events).back();
+    const auto reconstructor = config.create(kSize);
+    reconstructor->process(events);
+    cv::Mat1b larger(100, 100, static_cast<std::uint8_t>(7));
+    cv::Mat1b part_of_larger = larger(cv::Rect(10, 20, kSize.width_px, kSize.height_px));
+    cv::Mat1b wrong_size(3, 5);
+    const std::int64_t t_us = (events.back().t_us / 50000 + 1) * 50000;
+    reconstructor->render(t_us, part_of_larger);
+    reconstructor->render(t_us, wrong_size);
+    REQUIRE(are_equal(part_of_larger, expected));
+    REQUIRE(are_equal(wrong_size, expected));
+    REQUIRE(cv::countNonZero(larger != 7) <= kSize.width_px * kSize.height_px);
+  });
+}
+
+TEST_CASE("events in the sensor's corners are taken") {
+  for_each_variant([&](const MethodConfig& config) {
+    for (const SensorSize size :
+         {SensorSize{1, 1}, SensorSize{1, 9}, SensorSize{9, 1}, SensorSize{640, 480}}) {
+      const auto right = static_cast<std::uint16_t>(size.width_px - 1);
+      const auto bottom = static_cast<std::uint16_t>(size.height_px - 1);
+      const auto reconstructor = config.create(size);
+      reconstructor->process(std::vector<Event>{
+          {0, 0, 0, true}, {5, right, 0, false}, {5, 0, bottom, true}, {9, right, bottom, false}});
+      cv::Mat1b grey;
+      reconstructor->render(10, grey);
+      REQUIRE(grey.size() == cv::Size(size.width_px, size.height_px));
+    }
+  });
+}
+
+TEST_CASE("an option takes its bounds and refuses what lies beyond them") {
+  const std::vector<Event> events = scene(7);
+  for (const Method& method : methods()) {
+    const auto defaults = method.configure();
+    for (const Option& option : defaults->options().options()) {
+      double low = 0.0;
+      double high = 0.0;
+      // "0.001 to 1000 s"
+      if (std::sscanf(option.domain().c_str(), "%lf to %lf", &low, &high) != 2) continue;
+      INFO(method.name << " " << option.name());
+      Option& own = defaults->options().at(option.name());
+      const double beyond = std::max({1.0, std::abs(low), std::abs(high)});
+      for (const double wrong : {low - beyond, high + beyond, std::nan(""), HUGE_VAL}) {
+        CHECK_THROWS_AS(own.set_text(fmt::format("{}", wrong)), Error);
+      }
+      for (const double bound : {low, high}) {
+        const auto config = method.configure();
+        config->options().at(option.name()).set_text(fmt::format("{}", bound));
+        try {
+          const auto frames = frames_of(*config, events);
+          CHECK(frames.size() > 5);
+        } catch (const Error& error) {  // it may not go together with the other defaults
+          CHECK(error.kind() == Error::Kind::usage);
+          CHECK_THAT(error.what(), Contains(option.name()));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("every config for reconstruction loads and works, and a method's own has its defaults") {
+  std::set<std::string> configs;
+  for (const auto& file : std::filesystem::directory_iterator(test::source_dir() / "configs" / "recon")) {
+    INFO(file.path());
+    ReconConfig config;
+    config.load(file.path());
+    configs.insert(file.path().stem().string());
+    CHECK_FALSE(is_flat(frames_of(config.method_config(), scene(8)).back()));
+    if (file.path().stem() == config.method().name) {
+      ReconConfig defaults;
+      defaults.choose_method(std::string(config.method().name));
+      CHECK(config.json() == defaults.json());
+    }
+  }
+  for (const Method& method : methods()) CHECK(configs.count(std::string(method.name)) == 1);
+}
