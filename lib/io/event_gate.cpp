@@ -11,12 +11,14 @@ namespace esi {
 namespace {
 
 constexpr std::int64_t kHour_us = 3'600'000'000;
-// Times beyond this (36 thousand years) are garbage, and differences of two times would overflow.
+// Times beyond this (36 thousand years) are garbage; within it, no difference of two times overflows.
 constexpr std::int64_t kMaxTime_us = std::int64_t{1} << 60;
 // So many events within one jitter window are released all the same: memory stays bounded.
 constexpr std::size_t kMaxHeldEvents = std::size_t{1} << 17;
 // So many intensity frames may come before the first event.
 constexpr std::size_t kMaxHeldFrames = 64;
+
+std::int64_t possible(std::int64_t t_us) { return std::clamp(t_us, -kMaxTime_us, kMaxTime_us); }
 
 bool is_earlier(const Event& a, const Event& b) { return a.t_us < b.t_us; }
 
@@ -39,7 +41,7 @@ bool EventGate::next(Packet& packet) {
     const std::size_t first_packet_end = held_.packet_ends_us.size();
     at_end_ = !reader_->read(held_, losses_);
     if (!time_zero_us_ && held_.frames.size() > kMaxHeldFrames) {
-      settle_time_zero(held_.frames.front().exposure.begin_us);
+      settle_time_zero(possible(held_.frames.front().exposure.begin_us));
     }
     admit(first_event);
     if (time_zero_us_) shift_new(first_frame, first_packet_end);
@@ -57,6 +59,7 @@ void EventGate::admit(std::size_t first_new) {
       losses_.add(Drop::outside_sensor);
       continue;
     }
+    require_possible(event->t_us);
     if (!time_zero_us_) settle_time_zero(event->t_us);
     const std::int64_t t_us = event->t_us - *time_zero_us_;
     const Order order = order_of(t_us);
@@ -82,10 +85,6 @@ bool EventGate::is_inside(const Event& event) {
 }
 
 EventGate::Order EventGate::order_of(std::int64_t t_us) {
-  if (t_us > kMaxTime_us || t_us < -kMaxTime_us) {
-    throw Error(fmt::format("{}: an event's time, {} us, can't be right; check the format and the time unit",
-                            name_, t_us + *time_zero_us_));
-  }
   if (!newest_us_ || t_us >= *newest_us_) {
     newest_us_ = t_us;
     return Order::in_order;
@@ -101,11 +100,13 @@ EventGate::Order EventGate::order_of(std::int64_t t_us) {
   return back_us > options_.jitter_us || too_late ? Order::backward : Order::jitter;
 }
 
+void EventGate::require_possible(std::int64_t t_us) const {
+  if (t_us == possible(t_us)) return;
+  throw Error(fmt::format("{}: an event's time, {} us, can't be right; check the format and the time unit",
+                          name_, t_us));
+}
+
 void EventGate::settle_time_zero(std::int64_t t_first_us) {
-  if (t_first_us > kMaxTime_us || t_first_us < -kMaxTime_us) {
-    throw Error(fmt::format("{}: the first event's time, {} us, can't be right; check the format", name_,
-                            t_first_us));
-  }
   const bool near_zero = t_first_us > -kHour_us && t_first_us < kHour_us;
   const bool from_file =
       options_.time_zero == TimeZero::file || (options_.time_zero == TimeZero::automatic && near_zero);
@@ -120,11 +121,11 @@ void EventGate::shift_new(std::size_t first_frame, std::size_t first_packet_end)
     unshifted_ = false;
   }
   for (std::size_t i = first_frame; i < held_.frames.size(); ++i) {
-    held_.frames[i].exposure.begin_us -= *time_zero_us_;
-    held_.frames[i].exposure.end_us -= *time_zero_us_;
+    Interval& exposure = held_.frames[i].exposure;
+    exposure = {possible(exposure.begin_us) - *time_zero_us_, possible(exposure.end_us) - *time_zero_us_};
   }
   for (std::size_t i = first_packet_end; i < held_.packet_ends_us.size(); ++i) {
-    held_.packet_ends_us[i] -= *time_zero_us_;
+    held_.packet_ends_us[i] = possible(held_.packet_ends_us[i]) - *time_zero_us_;
   }
   std::stable_sort(held_.frames.begin(), held_.frames.end(), ends_earlier);
 }

@@ -26,6 +26,7 @@ class EventGate final : public EventSource {
   enum class Order { in_order, jitter, backward };
 
   void admit(std::size_t first_new);
+  void require_possible(std::int64_t t_us) const;
   bool is_inside(const Event& event);
   Order order_of(std::int64_t t_us);
   void settle_time_zero(std::int64_t t_first_us);

@@ -1,6 +1,6 @@
 // How fast ESI takes events and makes frames, beside what the memory traffic alone costs, measured in the
 // same run, round by round. Ratios carry over to other machines and hours; Mev/s don't.
-//   cmake --build build/release --target bench_recon && build/release/bin/bench_recon
+//   build/release/bin/bench_recon
 
 #include <fmt/format.h>
 #include <time.h>
@@ -47,7 +47,8 @@ Stream tag_board(const std::filesystem::path& csv) {
 /// 12 Mev/s from an upright edge that crosses the sensor in 0.1 s, spread over 24 columns.
 Stream moving_edge(esi::SensorSize size) {
   Stream stream{"synthetic edge", size, {}};
-  std::mt19937 random(1);
+  std::mt19937 generator(1);
+  const auto random = [&generator] { return static_cast<unsigned>(generator()); };
   const auto width = static_cast<unsigned>(size.width_px);
   for (unsigned i = 0; i < 1'500'000; ++i) {
     const unsigned t_us = i / 12;

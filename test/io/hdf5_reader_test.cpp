@@ -151,16 +151,19 @@ TEST_CASE("HDF5 coordinates that 16 bits can't hold are counted as outside") {
   columns.x[9000] = 65536;
   columns.y[9001] = std::int64_t{1} << 40;
   columns.y[19999] = 65535;
+  // What 32 bits would make a small number of.
+  columns.x[9002] = -(std::int64_t{1} << 32) + 5;
+  columns.y[9003] = (std::int64_t{1} << 32) + 5;
   {
     Hdf5Writer file(folder / "a.h5");
     write_columns(file, "/", columns);
   }
   const Reading reading = read_hdf5(folder / "a.h5");
   std::vector<Event> expected = expected_events(columns, 1, 9000);
-  const std::vector<Event> rest = expected_events(columns, 9002, 20000);
+  const std::vector<Event> rest = expected_events(columns, 9004, 20000);
   expected.insert(expected.end(), rest.begin(), rest.end());
   CHECK(reading.events == expected);
-  CHECK(reading.losses.of(Drop::outside_sensor) == 3);
+  CHECK(reading.losses.of(Drop::outside_sensor) == 5);
 }
 
 TEST_CASE("M3ED: --stream chooses the camera, and is asked for only where there are two") {

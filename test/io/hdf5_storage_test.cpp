@@ -1,6 +1,7 @@
 // How the columns are stored must not matter, and each chunk is decoded once.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "esi/io/hdf5/dataset.hpp"
 #include "support/read_hdf5.hpp"
@@ -42,6 +43,13 @@ TEST_CASE("HDF5 events are the same however they are stored") {
       {"one large chunk", {.chunk = 200000}},
       {"tiny chunks", {.chunk = 3}},
       {"compressed", {.chunk = 4096, .filters = deflate_shuffle_checksum}},
+      {"compressed but for the cut chunk at the end",
+       {.chunk = 4096,
+        .filters =
+            [](hid_t p) {
+              deflate_shuffle_checksum(p);
+              H5Pset_chunk_opts(p, H5D_CHUNK_DONT_FILTER_PARTIAL_CHUNKS);
+            }}},
       {"space taken early",
        {.chunk = 1000, .filters = [](hid_t p) { H5Pset_alloc_time(p, H5D_ALLOC_TIME_EARLY); }}},
   };
@@ -100,6 +108,32 @@ TEST_CASE("Every HDF5 chunk is decoded once, though the columns' chunks differ")
     }
     CHECK(decoded_chunks == chunks);
   }
+}
+
+TEST_CASE("A decoded HDF5 chunk is kept for the rows that follow") {
+  const TempFolder folder;
+  const Columns columns(1000);
+  std::uint64_t address = 0;
+  {
+    Hdf5Writer file(folder / "a.h5");
+    file.column("/t", columns.t, {.chunk = 1000, .filters = gzip});
+    const hid_t dataset = H5Dopen2(file.id(), "/t", H5P_DEFAULT);
+    haddr_t chunk = 0;
+    const hsize_t row = 0;
+    REQUIRE(H5Dget_chunk_info_by_coord(dataset, &row, nullptr, &chunk, nullptr) >= 0);
+    address = chunk;
+    H5Dclose(dataset);
+  }
+  ByteSource bytes(folder / "a.h5");
+  const Hdf5File file(bytes);
+  Hdf5Dataset dataset(file, "/t");
+  std::vector<std::int64_t> values(1000);
+  CHECK(dataset.read(0, 300, H5T_NATIVE_INT64, values.data()) == std::nullopt);
+  std::fstream(folder / "a.h5", std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(static_cast<std::streamoff>(address))
+      .write("damaged since", 13);
+  CHECK(dataset.read(300, 700, H5T_NATIVE_INT64, values.data() + 300) == std::nullopt);
+  CHECK(values == columns.t);
 }
 
 TEST_CASE("An LZF or Blosc chunk that was stored as it is, is read as it is") {

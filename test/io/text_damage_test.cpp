@@ -185,7 +185,7 @@ TEST_CASE("A text that cannot be read is an error that says what, where and what
       {"1,2,100000,1\n5,2,200000,0\n3,9,300000,1\n", {"line 1", "perhaps --columns xytp"}},
       {"0 1 2 0.1\n1 5 2 0.2\n1 3 9 0.3\n", {"line 1", "perhaps --columns pxyt"}},
       {"0.1 1 4 2\n0.2 0 2 9\n0.3 1 4 2\n", {"line 1", "perhaps --columns tpxy"}},
-      {"9,5,1,1\n5,6,2,0\n7,7,1,1\n2,8,2,1\n8,9,0,0\n", {"line 1", "perhaps --columns xtyp"}},
+      {"9,5,1,1\n5,6,2,0\n7,7,1,1\n2,8,2,1\n8,9,0,0\n1,10,0,0\n", {"line 1", "perhaps --columns xtyp"}},
       {"0.1 1 2 255\n0.2 3 4 0\n", {"line 1", "polarity of 0/1, -1/1 or 1/2", "--columns"}},
       {"x,y,t,p\n1,2.5,100,1\n", {"line 2 '1,2.5,100,1'", "column y is no whole number", "--columns"}},
       {"t,x,y,p\n100,1,2,255\n200,3,4,0\n", {"line 2", "none of 0/1, -1/1, 1/2"}},

@@ -156,6 +156,12 @@ TEST_CASE("A polarity code that is given is taken, whatever the first lines look
   CHECK(events == Events{{100000, 1, 2, false}, {200000, 1, 2, false}});
 }
 
+TEST_CASE("Times that go back do not make another column the time") {
+  // x rises all the time, but that is what x may do.
+  const Events events = read_text("0.2 1 2 1\n0.1 3 4 0\n0.3 5 6 1\n").events;
+  CHECK(events == Events{{200000, 1, 2, true}, {100000, 3, 4, false}, {300000, 5, 6, true}});
+}
+
 TEST_CASE("Events come in the order of the file, with their own times, in packets of bounded size") {
   std::string text;
   Events expected;

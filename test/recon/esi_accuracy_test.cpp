@@ -13,11 +13,7 @@ using namespace esi;
 
 namespace {
 
-/// The table is less exact there, see decay_loss.hpp.
-double tolerance(const DecayOptions& decay) {
-  const bool is_blunt = decay.decay == Decay::polynomial && decay.n > 1.0 && decay.n < 2.0;
-  return is_blunt ? 2.5e-5 : 1e-5;
-}
+constexpr double kTolerance = 1e-5;  ///< of the clamp's range
 
 /// Such pixels may be decayed in parts, so that E is not that of the last event; decayed to a frame's time,
 /// it is.
@@ -34,13 +30,13 @@ void check_against_reference(const EsiOptions& options, SensorSize size, const s
                 << options.decay.n << " alpha " << options.decay.alpha_hz << " c " << options.c_on << " "
                 << options.c_off << " E " << options.e_min << " " << options.e_max);
   if (!options.readout_decay || !outlasts_an_epoch(options.decay)) {
-    REQUIRE(test::largest_error(esi, reference, options) < tolerance(options.decay));
+    REQUIRE(test::largest_error(esi, reference, options) < kTolerance);
   }
   cv::Mat1b grey;
   for (const std::int64_t later_us : {1, 10000, 3000000}) {
     const std::int64_t t_us = events.back().t_us + later_us;
     esi.render(t_us, grey);
-    REQUIRE(test::largest_grey_error(grey, reference, t_us) < 0.5 + 255 * 2.5e-5);
+    REQUIRE(test::largest_grey_error(grey, reference, t_us) < 0.5 + 255 * kTolerance);
   }
 }
 

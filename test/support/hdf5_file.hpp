@@ -20,6 +20,9 @@ struct Storage {
   std::function<void(hid_t)> filters = [](hid_t /*properties*/) {};
 };
 
+/// Before the first HDF5 call: unloading the Blosc plugin at exit would look like a leak.
+inline const herr_t kNoCleaningAtExit = H5dont_atexit();
+
 inline void gzip(hid_t properties) { H5Pset_deflate(properties, 4); }
 
 /// A filter by its number, whether it is installed or not.

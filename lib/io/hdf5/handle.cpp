@@ -4,6 +4,9 @@ namespace esi {
 namespace {
 
 std::recursive_mutex& hdf5_mutex() {
+  // All that is opened here is closed here. What HDF5 would do at exit is to unload the Blosc plugin, which
+  // loses the plugin's memory. Where somebody else has used HDF5 before, this changes nothing.
+  [[maybe_unused]] static const herr_t kept = H5dont_atexit();
   static std::recursive_mutex mutex;
   return mutex;
 }

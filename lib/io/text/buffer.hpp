@@ -20,6 +20,7 @@ class TextBuffer {
   explicit TextBuffer(std::unique_ptr<ByteSource> bytes);
 
   const std::string& name() const { return bytes_->name(); }
+  const ByteSource& bytes() const { return *bytes_; }
 
   /// The whole lines that are here, each with its '\n'.
   std::string_view lines() const { return {begin_, static_cast<std::size_t>(lines_end_ - begin_)}; }

@@ -30,7 +30,7 @@ struct ColumnStatistics {
   bool holds_coordinates() const { return coordinates * 10 >= numbers * 9; }
   /// As times do, jitter aside.
   bool is_sorted() const { return falls * 100 <= numbers; }
-  bool is_disordered() const { return falls * 4 > numbers; }
+  bool is_disordered() const { return falls > 2 && falls * 4 > numbers; }
 };
 
 /// Statistics of `columns` columns over those lines that have that many, all of them numbers but for columns

@@ -138,14 +138,15 @@ void Decision::detect_columns() {
   std::string suggestion;
   const std::string order = detect_order(statistics_, preamble_.has_geometry, suggestion);
   if (order.empty() && !suggestion.empty()) {
-    throw Error(fmt::format("{} does not begin with columns t x y p; give their order, perhaps --columns {}",
-                            where(), suggestion));
+    throw Error(
+        fmt::format("{} and the lines after it are not t x y p; give their order, perhaps --columns {}",
+                    where(), suggestion));
   }
   if (order.empty()) {
-    throw Error(
-        fmt::format("{} does not begin columns t x y p with whole coordinates and a polarity of 0/1, -1/1 "
-                    "or 1/2; give the order with --columns, such as txyp",
-                    where()));
+    throw Error(fmt::format(
+        "{} and the lines after it are not t x y p with whole coordinates and a polarity of 0/1, -1/1 "
+        "or 1/2; give the order with --columns, such as txyp",
+        where()));
   }
   dialect_.columns = columns_from(order);
   note(order == "txyp" ? "no line names the columns: taken as t, x, y, p"

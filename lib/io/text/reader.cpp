@@ -26,10 +26,18 @@ std::unique_ptr<ByteSource> require_text(std::unique_ptr<ByteSource> bytes) {
   return bytes;
 }
 
+/// Empty for what is no regular file.
+std::optional<std::uintmax_t> size_of(const std::filesystem::path& path) {
+  std::error_code not_a_file;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, not_a_file);
+  return not_a_file ? std::nullopt : std::optional(bytes);
+}
+
 class TextReader final : public FormatReader {
  public:
   TextReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
       : buffer_(require_text(std::move(bytes))),
+        file_bytes_(size_of(buffer_.bytes().path())),
         max_unreadable_(options.max_unreadable),
         dialect_(open(options)) {
     layout_ = fast_layout(dialect_);
@@ -37,6 +45,11 @@ class TextReader final : public FormatReader {
   }
 
   const RecordingHeader& header() const override { return header_; }
+
+  std::optional<double> fraction_read() const override {
+    if (!file_bytes_) return std::nullopt;
+    return std::min(1.0, static_cast<double>(buffer_.bytes().position()) / static_cast<double>(*file_bytes_));
+  }
 
   bool read(Packet& packet, Losses& losses) override {
     const std::size_t before = packet.events.size();
@@ -69,6 +82,7 @@ class TextReader final : public FormatReader {
   std::string unit_name() const { return dialect_.time_shift == 6 ? "seconds" : "microseconds"; }
 
   TextBuffer buffer_;
+  std::optional<std::uintmax_t> file_bytes_;  ///< empty for a pipe
   double max_unreadable_;
   RecordingHeader header_;
   std::int64_t line_number_ = 0;  ///< of the last line taken
