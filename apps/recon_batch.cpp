@@ -72,7 +72,7 @@ std::string name_among(const fs::path& path, const std::vector<fs::path>& all) {
       },
   };
   for (const auto name_of : kNames) {
-    const std::string name = name_of(path);
+    std::string name = name_of(path);
     const auto has_same = [&](const fs::path& other) { return name_of(other) == name; };
     if (std::count_if(all.begin(), all.end(), has_same) == 1) return name;
   }

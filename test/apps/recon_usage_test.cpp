@@ -145,7 +145,7 @@ TEST_CASE("methods and formats are listed") {
   CHECK_THAT(formats.out, Contains("aedat4") && Contains("hdf5") && Contains("text"));
 }
 
-TEST_CASE("--info --json says what a recording holds, without a sensor size") {
+TEST_CASE("asked with --info --json it says what a recording holds, without a sensor size") {
   const TempFolder folder;
   const std::string recording = folder.write("events.txt", "0.5 3 4 1\n0.5 11 8 0\n1.75 2 1 1\n");
   const auto result = run_tool("esi-recon", {recording, "--info", "--json"});

@@ -82,7 +82,7 @@ TEST_CASE("events outside the sensor are left out and counted, and too many are 
   CHECK_THROWS_WITH(drain(too_many), Contains("11 of 1000") && Contains("largest x is 10, the largest y 25"));
 }
 
-TEST_CASE("--size overrides the file's own sensor size; without either there is none") {
+TEST_CASE("the option --size overrides the file's own sensor size; without either there is none") {
   RecordingHeader header;
   header.sensor = SensorSize{20, 20};
   ReadOptions options;

@@ -199,7 +199,7 @@ TEST_CASE("M3ED: --stream chooses the camera, and is asked for only where there 
   CHECK_THAT(one.header.notes[0], Catch::Contains("resolution is no sensor size"));
 }
 
-TEST_CASE("--stream is refused where an HDF5 file has one stream") {
+TEST_CASE("the option --stream is refused where an HDF5 file has one stream") {
   const TempFolder folder;
   {
     Hdf5Writer file(folder / "a.h5");
