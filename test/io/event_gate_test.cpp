@@ -20,6 +20,7 @@ EventGate gate_over(std::vector<Packet> packets, const ReadOptions& options = {}
 
 std::vector<Event> events_at(const std::vector<std::int64_t>& times_us) {
   std::vector<Event> events;
+  events.reserve(times_us.size());
   for (const std::int64_t t_us : times_us) {
     events.push_back({t_us, static_cast<std::uint16_t>(events.size()), 0, true});
   }
@@ -28,6 +29,7 @@ std::vector<Event> events_at(const std::vector<std::int64_t>& times_us) {
 
 std::vector<std::int64_t> times_of(const std::vector<Event>& events) {
   std::vector<std::int64_t> times_us;
+  times_us.reserve(events.size());
   for (const Event& event : events) times_us.push_back(event.t_us);
   return times_us;
 }
