@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "esi/io/aedat4/decompress.hpp"
+#include "esi/io/decompress.hpp"
 
 namespace esi {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "esi/io/aedat4/byte_window.hpp"
-#include "esi/io/aedat4/decompress.hpp"
 #include "esi/io/aedat4/streams.hpp"
+#include "esi/io/byte_window.hpp"
+#include "esi/io/decompress.hpp"
 
 namespace esi {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "esi/io/aedat4/byte_window.hpp"
 #include "esi/io/aedat4/header.hpp"
+#include "esi/io/byte_window.hpp"
 #include "esi/io/losses.hpp"
 
 namespace esi {

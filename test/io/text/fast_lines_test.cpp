@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "io/read_text.hpp"
+#include "io/text/read_text.hpp"
 
 namespace esi::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "esi/core/error.hpp"
-#include "io/read_aedat4.hpp"
+#include "io/aedat4/read_aedat4.hpp"
 
 namespace esi::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <functional>
 #include <thread>
 
-#include "io/read_text.hpp"
+#include "io/text/read_text.hpp"
 
 namespace esi::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/sink_fixtures.hpp"
+#include "io/output/sink_fixtures.hpp"
 #include "support/temp_folder.hpp"
 
 using esi::encode_png;

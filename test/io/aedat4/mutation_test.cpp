@@ -3,7 +3,7 @@
 #include <random>
 
 #include "esi/core/error.hpp"
-#include "io/read_aedat4.hpp"
+#include "io/aedat4/read_aedat4.hpp"
 
 namespace esi::test {
 namespace {

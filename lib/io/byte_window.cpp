@@ -1,4 +1,4 @@
-#include "esi/io/aedat4/byte_window.hpp"
+#include "esi/io/byte_window.hpp"
 
 #include <algorithm>
 

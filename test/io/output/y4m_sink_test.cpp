@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "esi/io/output/file_descriptor.hpp"
-#include "io/sink_fixtures.hpp"
+#include "io/output/sink_fixtures.hpp"
 #include "support/temp_folder.hpp"
 
 using Catch::Contains;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "esi/core/error.hpp"
-#include "io/read_aedat4.hpp"
+#include "io/aedat4/read_aedat4.hpp"
 
 namespace esi::test {
 namespace {

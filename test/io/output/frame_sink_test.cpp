@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "io/sink_fixtures.hpp"
+#include "io/output/sink_fixtures.hpp"
 #include "support/temp_folder.hpp"
 
 using Catch::Contains;

@@ -7,7 +7,7 @@
 
 #include "esi/core/error.hpp"
 #include "esi/io/event_digest.hpp"
-#include "io/read_text.hpp"
+#include "io/text/read_text.hpp"
 #include "support/shared_data.hpp"
 
 namespace esi::test {

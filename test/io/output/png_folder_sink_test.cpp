@@ -7,7 +7,7 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/sink_fixtures.hpp"
+#include "io/output/sink_fixtures.hpp"
 #include "support/temp_folder.hpp"
 
 using Catch::Contains;

@@ -6,7 +6,7 @@
 
 #include "esi/core/error.hpp"
 #include "esi/io/event_digest.hpp"
-#include "io/read_aedat4.hpp"
+#include "io/aedat4/read_aedat4.hpp"
 #include "support/shared_data.hpp"
 
 namespace esi::test {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "esi/core/error.hpp"
-#include "io/read_text.hpp"
+#include "io/text/read_text.hpp"
 
 namespace esi::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "esi/io/aedat4/decompress.hpp"
+#include "esi/io/decompress.hpp"
 
 #include <lz4frame.h>
 #include <zstd.h>
