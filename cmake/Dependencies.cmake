@@ -32,6 +32,7 @@ esi_find_package(FlatBuffers libflatbuffers-dev)
 esi_find_package(pugixml libpugixml-dev)
 esi_find_module(hdf5 libhdf5-dev)
 esi_find_module(liblz4 liblz4-dev)
+esi_find_module(libzip libzip-dev)
 esi_find_module(libzstd libzstd-dev)
 esi_find_module(zlib zlib1g-dev)
 

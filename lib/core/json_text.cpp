@@ -60,6 +60,8 @@ json parse_json(std::string_view text, const std::string& name) {
     return json::parse(text, StrictEvents(name));
   } catch (const json::parse_error& error) {
     throw usage_error(fmt::format("{}: {} ({})", name, reason_of(error), place_of(text, error.byte)));
+  } catch (const json::out_of_range&) {
+    throw usage_error(name + ": a number is too large");
   }
 }
 

@@ -56,6 +56,16 @@ int open_for_reading(const std::string& name) {
   return file;
 }
 
+/// Passes over bytes without reading them, where that goes: what is wanted may lie behind gigabytes.
+std::size_t seek_forward(int file, std::size_t bytes) {
+  struct stat status {};
+  if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  const off_t position = lseek(file, 0, SEEK_CUR);
+  if (position < 0 || position >= status.st_size) return 0;
+  const off_t step = static_cast<off_t>(std::min(bytes, static_cast<std::size_t>(status.st_size - position)));
+  return lseek(file, step, SEEK_CUR) < 0 ? 0 : static_cast<std::size_t>(step);
+}
+
 }  // namespace
 
 ByteSource::ByteSource(const std::filesystem::path& path) {
@@ -70,11 +80,21 @@ ByteSource::ByteSource(const std::filesystem::path& path) {
   file_ = open_for_reading(name_);
 }
 
+ByteSource::ByteSource(const std::filesystem::path& path, std::unique_ptr<ByteStream> stream)
+    : path_(path), name_(path.string()), stream_(std::move(stream)) {}
+
 ByteSource::~ByteSource() {
-  if (!is_stdin()) close(file_);
+  if (!is_stdin() && !stream_) close(file_);
+}
+
+std::optional<std::uintmax_t> ByteSource::file_bytes() const {
+  std::error_code not_a_file;
+  const std::uintmax_t bytes = std::filesystem::file_size(path_, not_a_file);
+  return stream_ || not_a_file ? std::nullopt : std::optional(bytes);
 }
 
 std::size_t ByteSource::read_file(std::span<std::byte> target) {
+  if (stream_) return stream_->read(target);
   while (true) {
     const ssize_t n = ::read(file_, target.data(), target.size());
     if (n >= 0) return static_cast<std::size_t>(n);
@@ -127,7 +147,10 @@ std::size_t ByteSource::read(std::span<std::byte> target) {
 
 std::size_t ByteSource::skip(std::size_t bytes) {
   std::array<std::byte, 65536> scratch;
-  std::size_t skipped = 0;
+  std::size_t skipped = std::min(bytes, peeked_.size() - peeked_taken_);
+  peeked_taken_ += skipped;
+  if (!stream_ && bytes - skipped > scratch.size()) skipped += seek_forward(file_, bytes - skipped);
+  position_ += skipped;
   while (skipped < bytes) {
     const std::size_t n = read_some(std::span(scratch).first(std::min(scratch.size(), bytes - skipped)));
     if (n == 0) break;

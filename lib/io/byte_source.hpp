@@ -1,12 +1,25 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace esi {
+
+/// Bytes that don't come from a file descriptor, such as a file within an archive.
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+  /// Fills `target` from the front; returns how many bytes, 0 only at the end.
+  virtual std::size_t read(std::span<std::byte> target) = 0;
+  /// Why the bytes ended early; empty where they did not.
+  virtual std::string damage() const = 0;
+};
 
 /// Bytes from a file or from standard input, forward only. The beginning can be looked at without taking it.
 class ByteSource {
@@ -14,6 +27,8 @@ class ByteSource {
   /// `path` "-" is standard input. Throws an Error that says why it can't be read: missing, a directory, a
   /// device, no permission, a terminal, closed.
   explicit ByteSource(const std::filesystem::path& path);
+  /// What lies in the file at `path` in another form.
+  ByteSource(const std::filesystem::path& path, std::unique_ptr<ByteStream> stream);
   ~ByteSource();
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
@@ -23,6 +38,8 @@ class ByteSource {
   /// Empty for standard input.
   const std::filesystem::path& path() const { return path_; }
   bool is_stdin() const { return path_.empty(); }
+  /// How many bytes there will be, where that is known.
+  std::optional<std::uintmax_t> file_bytes() const;
 
   /// The first bytes (fewer at the end of the file), which later reads return again.
   std::span<const std::byte> peek(std::size_t bytes);
@@ -39,12 +56,16 @@ class ByteSource {
   /// Bytes taken so far: the position that messages give.
   std::size_t position() const { return position_; }
 
+  /// Once at the end: why it came too early, where that is known. The bytes before it are good.
+  std::string damage() const { return stream_ ? stream_->damage() : std::string(); }
+
  private:
   std::size_t read_file(std::span<std::byte> target);
 
   std::filesystem::path path_;
   std::string name_;
   int file_ = -1;
+  std::unique_ptr<ByteStream> stream_;  ///< in the file's place
   std::vector<std::byte> peeked_;
   std::size_t peeked_taken_ = 0;
   std::size_t position_ = 0;

@@ -26,6 +26,12 @@ std::size_t ByteWindow::skip(std::size_t bytes) {
   return here < bytes ? here + source_->skip(bytes - here) : here;
 }
 
+std::optional<double> ByteWindow::fraction_taken() const {
+  const auto bytes = source_->file_bytes();
+  if (!bytes || *bytes == 0) return std::nullopt;
+  return std::min(1.0, static_cast<double>(position()) / static_cast<double>(*bytes));
+}
+
 // read_some, not read: a recorder's live pipe is decoded as its packets come.
 void ByteWindow::fill(std::size_t bytes) {
   const auto begin = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,11 +28,16 @@ class ByteWindow {
   /// Passes over bytes; returns how many there were.
   std::size_t skip(std::size_t bytes);
 
+  /// How many bytes peek gives without waiting for more.
+  std::size_t available() const { return end_ - begin_; }
+
   /// Bytes taken so far: the position that messages give.
   std::size_t position() const { return source_->position() - available(); }
 
+  /// How much of the input is taken, 0 to 1, where its size is known. For progress only.
+  std::optional<double> fraction_taken() const;
+
  private:
-  std::size_t available() const { return end_ - begin_; }
   void fill(std::size_t bytes);
 
   std::unique_ptr<ByteSource> source_;

@@ -15,6 +15,8 @@ constexpr std::int64_t kHour_us = 3'600'000'000;
 constexpr std::int64_t kMaxTime_us = std::int64_t{1} << 60;
 // So many events within one jitter window are released all the same: memory stays bounded.
 constexpr std::size_t kMaxHeldEvents = std::size_t{1} << 17;
+// So many events behind a jump ahead decide whether time went on from there, or back to where it was.
+constexpr std::ptrdiff_t kJurors = 256;
 // So many intensity frames may come before the first event.
 constexpr std::size_t kMaxHeldFrames = 64;
 
@@ -40,6 +42,8 @@ bool EventGate::next(Packet& packet) {
     const std::size_t first_frame = held_.frames.size();
     const std::size_t first_packet_end = held_.packet_ends_us.size();
     at_end_ = !reader_->read(held_, losses_);
+    const bool has_new = held_.events.size() > first_event;
+    if (has_new && is_jump(held_.events.back())) at_end_ = !reader_->read(held_, losses_);  // to judge it
     if (!time_zero_us_ && held_.frames.size() > kMaxHeldFrames) {
       settle_time_zero(possible(held_.frames.front().exposure.begin_us));
     }
@@ -59,6 +63,10 @@ void EventGate::admit(std::size_t first_new) {
       losses_.add(Drop::outside_sensor);
       continue;
     }
+    if (is_stray(event)) {
+      losses_.add(Drop::time_jump);
+      continue;
+    }
     require_possible(event->t_us);
     if (!time_zero_us_) settle_time_zero(event->t_us);
     const std::int64_t t_us = event->t_us - *time_zero_us_;
@@ -72,8 +80,8 @@ void EventGate::admit(std::size_t first_new) {
       sorted = false;
     }
     *kept++ = {t_us, event->x, event->y, event->on};
+    ++admitted_;
   }
-  admitted_ += std::distance(held_.events.begin() + static_cast<std::ptrdiff_t>(first_new), kept);
   held_.events.erase(kept, held_.events.end());
   if (!sorted) std::stable_sort(held_.events.begin(), held_.events.end(), is_earlier);
 }
@@ -82,6 +90,23 @@ bool EventGate::is_inside(const Event& event) {
   max_x_seen_ = std::max<int>(max_x_seen_, event.x);
   max_y_seen_ = std::max<int>(max_y_seen_, event.y);
   return !size_ || size_->contains(event.x, event.y);
+}
+
+// Ahead of all events so far.
+bool EventGate::is_jump(const Event& event) const {
+  return !newest_us_ || possible(event.t_us) - *time_zero_us_ - *newest_us_ > options_.max_backward_us;
+}
+
+// An event far ahead of those before it, while most of those after it go back, has a damaged time. Were it
+// believed, all of those would count as backward.
+bool EventGate::is_stray(std::vector<Event>::const_iterator event) const {
+  if (!is_jump(*event)) return false;
+  const auto begin = std::next(event);
+  const auto end = begin + std::min(kJurors, std::distance(begin, held_.events.cend()));
+  const auto back = std::count_if(begin, end, [&](const Event& later) {
+    return possible(event->t_us) - possible(later.t_us) > options_.max_backward_us;
+  });
+  return 2 * back > std::distance(begin, end);
 }
 
 EventGate::Order EventGate::order_of(std::int64_t t_us) {

@@ -8,8 +8,9 @@
 
 namespace esi {
 
-/// Between a format's reader and everyone else: sorts jitter, leaves out events that go back in time or lie
-/// outside the sensor, moves times to the clock's zero, and counts what it did (contract.md, "The clock").
+/// Between a format's reader and everyone else: sorts jitter, leaves out events that go back in time, stray
+/// ahead of it or lie outside the sensor, moves times to the clock's zero, and counts what it did
+/// (contract.md, "The clock").
 class EventGate final : public EventSource {
  public:
   /// `name` is what messages call the recording.
@@ -28,6 +29,8 @@ class EventGate final : public EventSource {
   void admit(std::size_t first_new);
   void require_possible(std::int64_t t_us) const;
   bool is_inside(const Event& event);
+  bool is_jump(const Event& event) const;
+  bool is_stray(std::vector<Event>::const_iterator event) const;
   Order order_of(std::int64_t t_us);
   void settle_time_zero(std::int64_t t_first_us);
   void shift_new(std::size_t first_frame, std::size_t first_packet_end);

@@ -8,13 +8,13 @@ namespace esi {
 
 std::string_view name_of(Drop reason) {
   static constexpr std::string_view kNames[] = {"outside_sensor", "backward_time", "unreadable_line",
-                                                "cut_line"};
+                                                "cut_line", "time_jump"};
   return kNames[static_cast<std::size_t>(reason)];
 }
 
 std::string_view name_of(Damage reason) {
   static constexpr std::string_view kNames[] = {"sorted_jitter", "corrupt_packet", "cut_packet",
-                                                "missing_table"};
+                                                "unreadable_frame", "missing_table"};
   return kNames[static_cast<std::size_t>(reason)];
 }
 
@@ -24,7 +24,7 @@ std::int64_t Losses::dropped() const {
 
 bool Losses::any() const {
   return dropped() > 0 || of(Damage::sorted_jitter) > 0 || of(Damage::corrupt_packet) > 0 ||
-         of(Damage::cut_packet) > 0;
+         of(Damage::cut_packet) > 0 || of(Damage::unreadable_frame) > 0;
 }
 
 std::string Losses::text() const {

@@ -13,15 +13,17 @@ enum class Drop {
   backward_time,    ///< more than the jitter window, up to the limit where it is an error
   unreadable_line,  ///< a text line that is no event
   cut_line,         ///< a text file that ends within a line
+  time_jump,        ///< alone far ahead of the events around it
   count_
 };
 
 /// Damage that is not counted in events.
 enum class Damage {
-  sorted_jitter,   ///< events put back into order
-  corrupt_packet,  ///< packets (chunks, blocks) that could not be decoded
-  cut_packet,      ///< the last packet, which the file's end cuts
-  missing_table,   ///< no file table (the recorder was killed); nothing is lost by that alone
+  sorted_jitter,     ///< events put back into order
+  corrupt_packet,    ///< packets (chunks, blocks) that could not be decoded
+  cut_packet,        ///< the last packet, which the file's end cuts
+  unreadable_frame,  ///< intensity frames that are missing or damaged
+  missing_table,     ///< no file table (the recorder was killed); nothing is lost by that alone
   count_
 };
 

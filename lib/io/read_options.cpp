@@ -3,12 +3,17 @@
 #include <algorithm>
 
 #include "esi/core/error.hpp"
+#include "esi/io/camera_chip.hpp"
 
 namespace esi {
 namespace {
 
 void check_size(const std::string& text) {
   if (!text.empty()) parse_sensor_size(text);
+}
+
+void check_chip(const std::string& text) {
+  if (!text.empty()) require_camera_chip(text);
 }
 
 void check_columns(const std::string& text) {
@@ -23,6 +28,9 @@ void check_columns(const std::string& text) {
 
 void ReadOptions::declare(OptionTable& table) {
   table.text("size", size, "sensor size WIDTHxHEIGHT in px, where the file does not have it", check_size);
+  table.text("chip", chip,
+             "the camera's chip, where an AEDAT file does not name one that is known: " + camera_chip_names(),
+             check_chip);
   table.text("columns", columns, "order of a text file's columns, such as txyp or xypt", check_columns);
   table.text("stream", stream, "which event stream, where the file has several");
   table.choice("time_unit", time_unit, {"auto", "s", "ms", "us", "ns"}, "unit of the times in a text file");

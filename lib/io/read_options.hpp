@@ -16,6 +16,7 @@ enum class PolarityCode { automatic, zero_one, minus_plus_one, one_two };
 /// How a recording is read. What is not given is taken from the file; what can't be is asked for.
 struct ReadOptions {
   std::string size;     ///< "346x260", or empty: from the file
+  std::string chip;     ///< the camera's chip, such as "DAVIS346" (AEDAT 2 and 3.1), or empty: from the file
   std::string columns;  ///< order of the text columns, such as "txyp" or "xypt", or empty: from the file
   std::string stream;   ///< which of several event streams (AEDAT 4: id; M3ED: left or right), or empty
   TimeUnit time_unit = TimeUnit::automatic;

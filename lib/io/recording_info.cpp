@@ -35,12 +35,13 @@ std::optional<std::int64_t> RecordingInfo::t_first_us() const {
   return on_clock ? std::optional(*on_clock + time_zero_us) : std::nullopt;
 }
 
-RecordingInfo inspect(EventSource& source) {
+RecordingInfo inspect(EventSource& source, const std::function<void(const Packet&)>& look) {
   RecordingInfo info;
   Packet packet;
   while (source.next(packet)) {
     info.digest.add(packet.events);
     info.intensity_frames += static_cast<std::int64_t>(packet.frames.size());
+    if (look) look(packet);
   }
   info.header = source.header();
   info.sensor = source.sensor_size();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -23,8 +24,9 @@ struct RecordingInfo {
   std::optional<std::int64_t> t_first_us() const;
 };
 
-/// Reads a recording to its end. Throws what its source throws.
-RecordingInfo inspect(EventSource& source);
+/// Reads a recording to its end, and shows every packet to `look`, if there is one. Throws what its source
+/// throws.
+RecordingInfo inspect(EventSource& source, const std::function<void(const Packet&)>& look = {});
 
 /// The fields of contract.md; `dropped` and `damaged` by reason.
 nlohmann::json to_json(const RecordingInfo& info);

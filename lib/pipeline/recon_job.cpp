@@ -31,7 +31,10 @@ void refuse_same_file(const ReconJob& job) {
 }
 
 // FNV-1a, 64 bits: equal for the same recording (path and size) and options, else almost surely different.
-std::string fingerprint_of(const ReconJob& job, const nlohmann::json& config) {
+// What is to happen to an older run's output makes no difference to this run's.
+std::string fingerprint_of(const ReconJob& job, nlohmann::json config) {
+  config.erase("force");
+  config.erase("resume");
   std::error_code no_file;
   const auto bytes = fs::file_size(job.recording, no_file);
   std::uint64_t hash = 0xcbf29ce484222325;
@@ -76,7 +79,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   const auto sink = open_frame_sink(job.output, config.sink,
                                     {report.size, config.frames.video_fps(), job.threads, fingerprint});
 
-  report.result = reconstruct(source, *schedule, *method, *sink, config.frames.max_frames, observer);
+  report.result = reconstruct(source, *schedule, *method, *sink, config.frames.max_frames, name, observer);
   report.losses = source.losses();
   report.wall_s = std::chrono::duration<double>(Clock::now() - started).count();
   if (report.result.stopped) {

@@ -16,8 +16,13 @@ namespace {
 class Loop {
  public:
   Loop(EventSource& source, FrameSchedule& schedule, Reconstructor& method, FrameSink& sink,
-       std::int64_t max_frames)
-      : source_(source), schedule_(schedule), method_(method), sink_(sink), max_frames_(max_frames) {}
+       std::int64_t max_frames, const std::string& name)
+      : source_(source),
+        schedule_(schedule),
+        method_(method),
+        sink_(sink),
+        max_frames_(max_frames),
+        name_(name) {}
 
   Reconstruction run(const Observer& observer) {
     Packet packet;
@@ -77,10 +82,11 @@ class Loop {
   void refuse_flood(std::int64_t t_us) const {
     const std::int64_t due = schedule_.frames_before(t_us);
     if (due < max_frames_) return;
-    throw Error(fmt::format(
-        "{} frames would be due by the event at {} s, more than --max-frames {}; the recording has a gap or "
-        "starts late: use --start, a lower --fps, or --time-zero first-event",
-        due, seconds_text(t_us), max_frames_));
+    throw Error(
+        fmt::format("{}: {} frames would be due by the event at {} s, more than --max-frames {}; the "
+                    "recording has a gap or "
+                    "starts late: use --start, a lower --fps, or --time-zero first-event",
+                    name_, due, seconds_text(t_us), max_frames_));
   }
 
   // A recording that was cropped lasts until the cut, with or without events there.
@@ -103,6 +109,7 @@ class Loop {
   Reconstructor& method_;
   FrameSink& sink_;
   std::int64_t max_frames_;
+  const std::string& name_;
   std::deque<IntensityFrame> unobserved_;
   std::int64_t events_since_frame_ = 0;
   Frame frame_;
@@ -112,8 +119,9 @@ class Loop {
 }  // namespace
 
 Reconstruction reconstruct(EventSource& source, FrameSchedule& schedule, Reconstructor& method,
-                           FrameSink& sink, std::int64_t max_frames, const Observer& observer) {
-  return Loop(source, schedule, method, sink, max_frames).run(observer);
+                           FrameSink& sink, std::int64_t max_frames, const std::string& name,
+                           const Observer& observer) {
+  return Loop(source, schedule, method, sink, max_frames, name).run(observer);
 }
 
 }  // namespace esi

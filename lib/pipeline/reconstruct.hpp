@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "esi/core/frame_schedule.hpp"
 #include "esi/io/event_digest.hpp"
@@ -34,7 +35,9 @@ struct Reconstruction {
 /// events with t < T; intensity frames reach the method in order, at the ends of their exposures.
 /// Does not finish the sink.
 /// Throws an Error when a frame's number would reach `max_frames`, before the frames of that gap are written.
+/// `name` is what messages call the recording.
 Reconstruction reconstruct(EventSource& source, FrameSchedule& schedule, Reconstructor& method,
-                           FrameSink& sink, std::int64_t max_frames, const Observer& observer);
+                           FrameSink& sink, std::int64_t max_frames, const std::string& name,
+                           const Observer& observer);
 
 }  // namespace esi

@@ -207,28 +207,6 @@ TEST_CASE("a run that is interrupted keeps its frames and does not claim to be c
   CHECK_FALSE(fs::exists(out / "run.json"));
 }
 
-TEST_CASE("every layout of the tag board gives the same frames") {
-  const std::vector<std::string> layouts = {"dsec_blosc.h5",      "dsec_gzip.h5", "e2calib_eds_lzf.h5",
-                                            "m3ed_lzf.h5",        "rpg.txt",      "txyp_us.csv",
-                                            "metavision_xypt.csv"};
-  const TempFolder folder;
-  std::string expected;
-  for (const std::string& layout : layouts) {
-    const auto recording = shared_data("tagboard/tagboard." + layout);
-    if (!recording) return;
-    CAPTURE(layout);
-    const auto out = folder / layout;
-    const auto result = run_tool("esi-recon", {*recording, "--size", "346x260", "-o", out, "--fps", "100",
-                                               "--time-zero", "first-event", "--quiet"});
-    CHECK(result.exit_code == 0);
-    CHECK(fs::exists(out / "frame_0000000099.png"));
-    CHECK_FALSE(fs::exists(out / "frame_0000000100.png"));
-    const std::string digest = digest_of(out);
-    if (expected.empty()) expected = digest;
-    CHECK(digest == expected);
-  }
-}
-
 TEST_CASE("a recording ten times longer takes the same memory") {
   const TempFolder folder;
   const std::string shorter = folder.write("short.txt", sample_text(200000, 10));

@@ -18,11 +18,12 @@ TEST_CASE("bad JSON is refused with its name and place") {
     std::string text;
     const char* told;
   };
-  const auto row = GENERATE(
-      Row{"{\n  \"a\": 1,\n  \"b\": }\n}", "line 3, column 8"}, Row{"", "line 1, column 1"},
-      Row{"{\"a\": 1} x", "line 1, column 10"}, Row{R"({"a": 1, "a": 2})", "\"a\" is there twice"},
-      Row{R"({"b": {"a": 1, "c": 3, "a": 2}})", "\"a\" is there twice"}, Row{"{\"a\": nan}", "line 1"},
-      Row{std::string(100000, '['), "nested deeper"}, Row{R"({"a": "\ud800"})", "line 1"});
+  const auto row =
+      GENERATE(Row{"{\n  \"a\": 1,\n  \"b\": }\n}", "line 3, column 8"}, Row{"", "line 1, column 1"},
+               Row{"{\"a\": 1} x", "line 1, column 10"}, Row{R"({"a": 1, "a": 2})", "\"a\" is there twice"},
+               Row{R"({"b": {"a": 1, "c": 3, "a": 2}})", "\"a\" is there twice"},
+               Row{"{\"a\": nan}", "line 1"}, Row{std::string(100000, '['), "nested deeper"},
+               Row{R"({"a": "\ud800"})", "line 1"}, Row{"{\"a\": 1e999}", "too large"});
   CHECK_THROWS_WITH(parse_json(row.text, "x.json"), Contains("x.json: ") && Contains(row.told));
   CHECK_THROWS_AS(parse_json(row.text, "x.json"), Error);
 }

@@ -66,8 +66,41 @@ TEST_CASE("time that goes back by more than the jitter window is left out, by mo
   CHECK(times_of(drain(gate).events) == std::vector<std::int64_t>{0, 4000, 5000, 6000});
   CHECK(gate.losses().of(Drop::backward_time) == 1);
 
-  EventGate broken = gate_over(packets_of(events_at({0, 2000000, 999999}), 1));
+  EventGate broken = gate_over(packets_of(events_at({0, 1000000, 2000000, 999999}), 1));
   CHECK_THROWS_WITH(drain(broken), Contains("rec: time goes back by 1000001 us"));
+}
+
+TEST_CASE("an event whose time strays far ahead is left out, wherever packets end") {
+  struct Row {
+    std::vector<std::int64_t> times_us, kept_us;
+  };
+  constexpr std::int64_t kYear_us = 31557600000000;
+  const auto row =
+      GENERATE(Row{{0, 10, kYear_us, 20, 30, 40}, {0, 10, 20, 30, 40}},
+               Row{{kYear_us, 10, 20, 30}, {10, 20, 30}},  // the first of all
+               Row{{0, 10, INT64_MAX, 20, 30, 40}, {0, 10, 20, 30, 40}},
+               Row{{0, kYear_us, kYear_us + 5, 20, 30, 40, 50}, {0, 20, 30, 40, 50}},
+               Row{{0, 10, 1000041, 20, 30}, {0, 10, 20, 30}},  // just more than the limit
+               Row{{0, 10, kYear_us, kYear_us + 1}, {0, 10, kYear_us, kYear_us + 1}});  // a pause is none
+  const auto packet_size = GENERATE(1u, 2u, 3u, 4u, 100u);
+  if (packet_size < 3 && row.times_us[2] == kYear_us + 5) return;  // two in a row need a longer look ahead
+  CAPTURE(row.times_us, packet_size);
+  EventGate gate = gate_over(packets_of(events_at(row.times_us), packet_size));
+  CHECK(times_of(drain(gate).events) == row.kept_us);
+  CHECK(gate.losses().of(Drop::time_jump) ==
+        static_cast<std::int64_t>(row.times_us.size() - row.kept_us.size()));
+}
+
+TEST_CASE("a clock that starts again is an error, not a stray") {
+  std::vector<std::int64_t> times_us;
+  for (std::int64_t i = 0; i < 2000; ++i) times_us.push_back(i % 1000 * 10000);
+  EventGate gate = gate_over(packets_of(events_at(times_us), GENERATE(1u, 7u, 5000u)));
+  CHECK_THROWS_WITH(drain(gate), Contains("time goes back by 9990000 us after event 1000"));
+}
+
+TEST_CASE("one event that goes back does not make strays of all that came after a pause") {
+  EventGate gate = gate_over(packets_of(events_at({0, 10, 2000000, 2000010, 2000020, 2000030, 5}), 100));
+  CHECK_THROWS_WITH(drain(gate), Contains("time goes back by 2000025 us after event 6"));
 }
 
 TEST_CASE("events outside the sensor are left out and counted, and too many are an error") {

@@ -74,7 +74,7 @@ TEST_CASE("every frame shows the events before it, however the recording is cut 
   FixedRate schedule(100, 0);
   Recorder method;
   FrameList sink;
-  const Reconstruction result = reconstruct(*source, schedule, method, sink, 100, {});
+  const Reconstruction result = reconstruct(*source, schedule, method, sink, 100, "rec", {});
   REQUIRE(sink.frames.size() == 4);
   CHECK(result.frames == 4);
   CHECK(result.digest.events() == 35);
@@ -98,7 +98,7 @@ TEST_CASE("intensity frames reach the method at their exposures' ends, however t
   FixedRate schedule(100, 0);
   Recorder method;
   FrameList sink;
-  reconstruct(*source, schedule, method, sink, 100, {});
+  reconstruct(*source, schedule, method, sink, 100, "rec", {});
   // The one that ends with the first frame is part of it; what ends behind the last frame comes too late.
   const std::vector<Recorder::Observation> expected = {{4500, 5, 0}, {10000, 10, 0}, {34500, 35, 3}};
   CHECK(method.observed == expected);
@@ -109,12 +109,12 @@ TEST_CASE("a gap gives its frames, and one that would flood the disk is refused 
   FixedRate schedule(100, 0);
   Recorder method;
   FrameList sink;
-  reconstruct(*source_of(packets_of(events, 1)), schedule, method, sink, 101, {});
+  reconstruct(*source_of(packets_of(events, 1)), schedule, method, sink, 101, "rec", {});
   CHECK(sink.frames.size() == 101);
 
   FixedRate flooded(100, 0);
   FrameList none;
-  CHECK_THROWS_WITH(reconstruct(*source_of(packets_of(events, 2)), flooded, method, none, 100, {}),
+  CHECK_THROWS_WITH(reconstruct(*source_of(packets_of(events, 2)), flooded, method, none, 100, "rec", {}),
                     Contains("100 frames would be due") && Contains("--max-frames"));
   CHECK(none.frames.empty());
 }
@@ -125,10 +125,11 @@ TEST_CASE("the observer can stop a reconstruction") {
   Recorder method;
   FrameList sink;
   int calls = 0;
-  const auto result = reconstruct(*source, schedule, method, sink, 1000, [&](const Progress& progress) {
-    CHECK(progress.frames == static_cast<std::int64_t>(sink.frames.size()));
-    return ++calls < 5;
-  });
+  const auto result =
+      reconstruct(*source, schedule, method, sink, 1000, "rec", [&](const Progress& progress) {
+        CHECK(progress.frames == static_cast<std::int64_t>(sink.frames.size()));
+        return ++calls < 5;
+      });
   CHECK(result.stopped);
   CHECK(calls == 5);
   CHECK(sink.frames.size() < 30);
@@ -139,7 +140,7 @@ TEST_CASE("a crop in time has frames up to its end, counted from its start") {
   FixedRate schedule(100, 20000);
   Recorder method;
   FrameList sink;
-  const auto result = reconstruct(source, schedule, method, sink, 100, {});
+  const auto result = reconstruct(source, schedule, method, sink, 100, "rec", {});
   CHECK(result.digest.events() == 35);
   REQUIRE(sink.frames.size() == 4);
   CHECK(sink.frames[0].t_us == 30000);
@@ -153,7 +154,7 @@ TEST_CASE("a crop that ends in silence still has its frames") {
   FixedRate schedule(100, 0);
   Recorder method;
   FrameList sink;
-  reconstruct(source, schedule, method, sink, 1000, {});
+  reconstruct(source, schedule, method, sink, 1000, "rec", {});
   CHECK(sink.frames.size() == 50);
 }
 

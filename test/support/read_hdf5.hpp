@@ -13,9 +13,12 @@ namespace esi::test {
 /// All that the HDF5 reader makes of a file.
 struct Reading {
   std::vector<Event> events;
+  std::vector<IntensityFrame> frames;
+  std::vector<std::int64_t> newest_event_us;  ///< given out when the frame of the same index came
   Losses losses;
   RecordingHeader header;
   std::size_t largest_packet = 0;
+  std::size_t largest_frame_count = 0;
 };
 
 inline Reading read_hdf5(const std::filesystem::path& path, const ReadOptions& options = {}) {
@@ -25,6 +28,11 @@ inline Reading read_hdf5(const std::filesystem::path& path, const ReadOptions& o
   while (reader->read(packet, reading.losses)) {
     reading.largest_packet = std::max(reading.largest_packet, packet.events.size());
     reading.events.insert(reading.events.end(), packet.events.begin(), packet.events.end());
+    reading.largest_frame_count = std::max(reading.largest_frame_count, packet.frames.size());
+    for (const IntensityFrame& frame : packet.frames) {
+      reading.frames.push_back(frame);
+      reading.newest_event_us.push_back(reading.events.empty() ? INT64_MIN : reading.events.back().t_us);
+    }
     packet.clear();
   }
   reading.header = reader->header();

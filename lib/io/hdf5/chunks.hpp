@@ -12,15 +12,21 @@
 
 namespace esi {
 
+inline constexpr int kMostHdf5Dimensions = 3;
+using Hdf5Extent = std::array<hsize_t, kMostHdf5Dimensions>;
+
 /// A dataset's extent; a scalar counts as one row of one value.
 struct Hdf5Shape {
   int rank = 0;
-  std::uint64_t rows = 0, values_per_row = 1;
-  std::uint64_t chunk_rows = 0, chunk_values = 1;  ///< a chunk's extent; no rows where there are no chunks
+  Hdf5Extent extent{0, 1, 1};  ///< rows first; 1 in every dimension beyond the rank
+  Hdf5Extent chunk{0, 1, 1};   ///< no rows where there are no chunks
   std::uint64_t value_bytes = 0;
 
-  std::uint64_t row_bytes() const { return values_per_row * value_bytes; }
-  std::uint64_t chunk_bytes() const { return chunk_rows * chunk_values * value_bytes; }
+  std::uint64_t rows() const { return extent[0]; }
+  std::uint64_t chunk_rows() const { return chunk[0]; }
+  std::uint64_t values_per_row() const { return extent[1] * extent[2]; }
+  std::uint64_t row_bytes() const { return values_per_row() * value_bytes; }
+  std::uint64_t chunk_bytes() const { return chunk[0] * chunk[1] * chunk[2] * value_bytes; }
 };
 
 /// The filtered chunks of one dataset. All calls need Hdf5Lock; the dataset must outlive this.
@@ -39,12 +45,10 @@ class Hdf5Chunks {
   std::optional<std::string> check(std::uint64_t begin, std::uint64_t count);
 
  private:
-  using Offset = std::array<hsize_t, 2>;
-
-  std::optional<std::string> fetch(const Offset& offset);
-  std::optional<std::string> load(const Offset& offset);
-  std::optional<std::string> check_blosc(const Offset& offset);
-  void copy_rows(const Offset& offset, std::uint64_t begin, std::uint64_t count,
+  std::optional<std::string> fetch(const Hdf5Extent& offset);
+  std::optional<std::string> load(const Hdf5Extent& offset);
+  std::optional<std::string> check_blosc(const Hdf5Extent& offset);
+  void copy_rows(const Hdf5Extent& offset, std::uint64_t begin, std::uint64_t count,
                  std::span<std::byte> target) const;
   template <class Visit>
   std::optional<std::string> for_each_chunk(std::uint64_t begin, std::uint64_t count, Visit visit);
@@ -57,7 +61,7 @@ class Hdf5Chunks {
   ChunkDecoder decoder_;
   std::vector<std::byte> stored_, chunk_;  ///< reused
   std::uint32_t mask_ = 0;                 ///< of `stored_`: bit i says that filter i was left out
-  std::optional<Offset> loaded_;           ///< which chunk is in `chunk_`
+  std::optional<Hdf5Extent> loaded_;       ///< which chunk is in `chunk_`
 };
 
 }  // namespace esi

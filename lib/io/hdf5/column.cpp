@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "esi/core/error.hpp"
+#include "esi/io/hdf5/event_rows.hpp"
 
 namespace esi {
 namespace {
@@ -16,6 +17,11 @@ Target saturated(T value) {
   if (std::cmp_less(value, Limits::min())) return Limits::min();
   if (std::cmp_greater(value, Limits::max())) return Limits::max();
   return static_cast<Target>(value);
+}
+
+template <class Target>
+Target saturated(double seconds) {
+  return saturated<Target>(us_or_none(seconds));
 }
 
 template <class Values, class Target>
@@ -39,15 +45,28 @@ void copy_values(const Values& values, std::size_t first, std::span<Target> targ
 
 }  // namespace
 
-Hdf5Column::Hdf5Column(const Hdf5File& file, const std::string& path) : dataset_(file, path) {
+Hdf5Column::Hdf5Column(const Hdf5File& file, const std::string& path, TimeColumn kind)
+    : dataset_(file, path) {
   if (dataset_.shape().rank > 1) {
     throw Error(
         fmt::format("{} has {} dimensions, but a column has one", dataset_.where(), dataset_.shape().rank));
   }
-  choose_type();
+  kind == TimeColumn::seconds ? choose_float_type() : choose_integer_type();
 }
 
-void Hdf5Column::choose_type() {
+void Hdf5Column::choose_float_type() {
+  const Hdf5Lock lock;
+  const Hdf5Handle stored_type = dataset_.type();
+  if (H5Tget_class(stored_type.get()) != H5T_FLOAT || H5Tget_size(stored_type.get()) > 8) {
+    throw Error(dataset_.where() +
+                " does not hold floating-point numbers of at most 64 bits, but this layout has its times in "
+                "seconds; convert the column");
+  }
+  memory_type_ = Hdf5Handle(H5Tcopy(H5T_NATIVE_DOUBLE));
+  values_.emplace<std::vector<double>>();
+}
+
+void Hdf5Column::choose_integer_type() {
   const Hdf5Lock lock;
   const Hdf5Handle stored_type = dataset_.type();
   const H5T_class_t kind = H5Tget_class(stored_type.get());

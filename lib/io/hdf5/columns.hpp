@@ -5,16 +5,23 @@
 #include <vector>
 
 #include "esi/io/hdf5/column.hpp"
+#include "esi/io/hdf5/event_rows.hpp"
 #include "esi/io/hdf5/event_table.hpp"
 
 namespace esi {
 
-/// Events as four datasets x, y, t, p of one group: t in whole microseconds, p > 0 is ON.
+/// Where the four columns of a file are, and what their times are.
+struct Hdf5ColumnPaths {
+  std::string x, y, t, p;
+  TimeColumn time = TimeColumn::microseconds;
+};
+
+/// Events as four datasets x, y, t, p; p > 0 is ON.
 class Hdf5Columns final : public Hdf5EventTable {
  public:
-  /// `group` ends in "/". `offset_us` is added to every time. What is odd is added to `notes`, which must
-  /// outlive this. Throws an Error where a column cannot be used or their lengths differ.
-  Hdf5Columns(const Hdf5File& file, const std::string& group, std::int64_t offset_us,
+  /// `offset_us` is added to every time. What is odd is added to `notes`, which must outlive this. Throws an
+  /// Error where a column cannot be used or their lengths differ.
+  Hdf5Columns(const Hdf5File& file, const Hdf5ColumnPaths& paths, std::int64_t offset_us,
               std::vector<std::string>& notes);
 
   std::uint64_t rows() const override { return t_.dataset().rows(); }
@@ -26,18 +33,11 @@ class Hdf5Columns final : public Hdf5EventTable {
  private:
   std::array<const Hdf5Column*, 4> columns() const { return {&x_, &y_, &t_, &p_}; }
   void check_lengths() const;
-  void drop_outside(Losses& losses);
-  void note_polarity(std::uint64_t first_row);
-  [[noreturn]] void refuse_time(std::uint64_t first_row) const;
 
   Hdf5Column x_, y_, t_, p_;
-  std::int64_t offset_us_;
-  std::vector<std::string>* notes_;
-  bool polarity_is_noted_ = false;
+  EventRowAppender appender_;
   std::uint64_t loaded_begin_ = 0;
-  std::vector<std::int64_t> t_values_;  ///< these and the events are reused
-  std::vector<std::int32_t> x_values_, y_values_, p_values_;
-  std::vector<Event> events_;
+  EventRows rows_;  ///< reused
 };
 
 }  // namespace esi

@@ -14,19 +14,25 @@ namespace esi {
 /// A chunk is decoded as a whole, so its size bounds the memory that reading takes.
 inline constexpr std::uint64_t kLargestChunkBytes = std::uint64_t{1} << 26;
 
-/// One dataset of at most two dimensions, read by rows (the first dimension), whatever its type. A scalar is
-/// one row.
+/// What a dataset may be at most: it bounds the memory that one row takes.
+struct Hdf5Limits {
+  int rank = 2;
+  std::uint64_t values_per_row = 16;
+};
+
+/// One dataset of at most three dimensions, read by rows (the first dimension), whatever its type. A scalar
+/// is one row.
 class Hdf5Dataset {
  public:
-  /// Throws an Error where the dataset is absent, has another rank, keeps its data in another file, or has
-  /// chunks that cannot be decoded here or only with absurd memory.
-  Hdf5Dataset(const Hdf5File& file, const std::string& path);
+  /// Throws an Error where the dataset is absent, has is beyond the limits, keeps its data in another file,
+  /// or has chunks that cannot be decoded here or only with absurd memory.
+  Hdf5Dataset(const Hdf5File& file, const std::string& path, const Hdf5Limits& limits = {});
 
   const std::string& path() const { return path_; }
   /// "FILE: dataset /events/x": how messages begin.
   const std::string& where() const { return where_; }
   const Hdf5Shape& shape() const { return shape_; }
-  std::uint64_t rows() const { return shape_.rows; }
+  std::uint64_t rows() const { return shape_.rows(); }
   Hdf5Handle type() const;
 
   /// The first row of [begin, end) that is declared but stored nowhere; `end` where all are stored.
@@ -38,8 +44,8 @@ class Hdf5Dataset {
   std::optional<std::string> read(std::uint64_t begin, std::uint64_t count, hid_t memory_type, void* target);
 
  private:
-  void open(const Hdf5File& file);
-  void read_shape();
+  void open(const Hdf5File& file, const Hdf5Limits& limits);
+  void read_shape(const Hdf5Limits& limits);
   void prepare_chunks(const Hdf5File& file, hid_t creation_properties);
   std::optional<std::string> read_decoded(std::uint64_t begin, std::uint64_t count, hid_t memory_type,
                                           void* target);

@@ -89,8 +89,9 @@ Hdf5Handle open_file(const ByteSource& bytes) {
 bool has_hdf5_signature(std::span<const std::byte> head) { return signature_offset(head) != kNoSignature; }
 
 Hdf5File::Hdf5File(ByteSource& bytes) : name_(bytes.name()), link_target_(std::make_unique<std::string>()) {
-  if (bytes.is_stdin()) {
-    throw Error(name_ + ": holds HDF5, which cannot be read as a stream; give the file's path");
+  if (!bytes.file_bytes()) {
+    throw Error(name_ +
+                ": holds HDF5, which cannot be read as a stream or in an archive; give the file's path");
   }
   if (is_marked_as_written(bytes.peek(kFormatHeadBytes))) {
     throw Error(name_ +

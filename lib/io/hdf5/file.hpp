@@ -27,6 +27,10 @@ class Hdf5File {
   /// Throws an Error where the path leads into another file.
   bool has_dataset(const std::string& path) const;
 
+  /// A group, a dataset or a type; no handle where the path leads nowhere. Throws an Error where it leads
+  /// into another file. Needs Hdf5Lock.
+  Hdf5Handle open_object(const std::string& path) const;
+
   /// `chunk_cache_bytes` is how much of the decoded chunks HDF5 keeps. Throws an Error.
   Hdf5Handle open_dataset(const std::string& path, std::size_t chunk_cache_bytes) const;
 
@@ -34,7 +38,6 @@ class Hdf5File {
   std::vector<std::string> dataset_paths(std::size_t limit) const;
 
  private:
-  Hdf5Handle open_object(const std::string& path) const;
   void refuse_external_link(const std::string& path) const;
 
   std::string name_;

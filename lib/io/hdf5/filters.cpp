@@ -19,7 +19,9 @@ struct Plugin {
 constexpr std::array kPlugins = {
     Plugin{kBloscFilter, "Blosc", "install the package hdf5-filter-plugin-blosc-serial"},
     Plugin{0x8ECF, "Prophesee ECF",
-           "no Debian package has it; write the file again without ECF, with Metavision's tools"},
+           "no Debian package has it; build the plugin hdf5_ecf and name its folder in HDF5_PLUGIN_PATH, or "
+           "write "
+           "the file again without ECF, such as with metavision_file_to_csv, whose csv is read as text"},
 };
 constexpr Plugin kOther = {
     0, "not known here",

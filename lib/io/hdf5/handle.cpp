@@ -1,15 +1,20 @@
 #include "esi/io/hdf5/handle.hpp"
 
+#include <mutex>
+
 namespace esi {
 namespace {
 
-std::recursive_mutex& hdf5_mutex() {
+std::mutex& hdf5_mutex() {
   // All that is opened here is closed here. What HDF5 would do at exit is to unload the Blosc plugin, which
   // loses the plugin's memory. Where somebody else has used HDF5 before, this changes nothing.
   [[maybe_unused]] static const herr_t kept = H5dont_atexit();
-  static std::recursive_mutex mutex;
+  static std::mutex mutex;
   return mutex;
 }
+
+/// Not a recursive mutex, which knows its owner by the thread's number: a forked child has another one.
+thread_local int locks_held = 0;
 
 herr_t collect(unsigned depth, const H5E_error2_t* entry, void* data) {
   auto& failure = *static_cast<Hdf5Failure*>(data);
@@ -21,12 +26,16 @@ herr_t collect(unsigned depth, const H5E_error2_t* entry, void* data) {
 
 }  // namespace
 
-Hdf5Lock::Hdf5Lock() : guard_(hdf5_mutex()) {
+Hdf5Lock::Hdf5Lock() {
+  if (locks_held++ == 0) hdf5_mutex().lock();
   H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Hdf5Lock::~Hdf5Lock() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+Hdf5Lock::~Hdf5Lock() {
+  H5Eset_auto2(H5E_DEFAULT, print_, print_data_);
+  if (--locks_held == 0) hdf5_mutex().unlock();
+}
 
 Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
   if (this != &other) {

@@ -2,14 +2,14 @@
 
 #include <hdf5.h>
 
-#include <mutex>
 #include <string>
 #include <utility>
 
 namespace esi {
 
 /// libhdf5 is not thread-safe and prints its errors to stderr: whoever calls it holds this, which keeps other
-/// threads out and the printing off. May be nested.
+/// threads out and the printing off. May be nested, and stays held in a child process that was forked under
+/// it.
 class Hdf5Lock {
  public:
   Hdf5Lock();
@@ -18,7 +18,6 @@ class Hdf5Lock {
   Hdf5Lock& operator=(const Hdf5Lock&) = delete;
 
  private:
-  std::lock_guard<std::recursive_mutex> guard_;
   H5E_auto2_t print_ = nullptr;
   void* print_data_ = nullptr;
 };

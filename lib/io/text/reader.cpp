@@ -6,6 +6,7 @@
 #include <array>
 
 #include "esi/core/error.hpp"
+#include "esi/io/image_list.hpp"
 #include "esi/io/text/buffer.hpp"
 #include "esi/io/text/clock.hpp"
 #include "esi/io/text/dialect.hpp"
@@ -27,17 +28,11 @@ std::unique_ptr<ByteSource> require_text(std::unique_ptr<ByteSource> bytes) {
 }
 
 /// Empty for what is no regular file.
-std::optional<std::uintmax_t> size_of(const std::filesystem::path& path) {
-  std::error_code not_a_file;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, not_a_file);
-  return not_a_file ? std::nullopt : std::optional(bytes);
-}
-
 class TextReader final : public FormatReader {
  public:
   TextReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
       : buffer_(require_text(std::move(bytes))),
-        file_bytes_(size_of(buffer_.bytes().path())),
+        file_bytes_(buffer_.bytes().file_bytes()),
         max_unreadable_(options.max_unreadable),
         dialect_(open(options)) {
     layout_ = fast_layout(dialect_);
@@ -64,6 +59,7 @@ class TextReader final : public FormatReader {
     }
     check_duration();
     if (packet.events.size() > before) return true;
+    take_damage(losses);
     judge();
     return false;
   }
@@ -74,6 +70,7 @@ class TextReader final : public FormatReader {
   void take_line(std::vector<Event>& events, Losses& losses);
   void take_cut_line(std::vector<Event>& events, Losses& losses);
   void take(const TextLine& line, std::string_view text, std::vector<Event>& events, Losses& losses);
+  void take_damage(Losses& losses);
   void check_duration() const;
   void judge() const;
   bool is_at_end() const {
@@ -91,6 +88,7 @@ class TextReader final : public FormatReader {
   TextClock clock_{false};
   std::array<Event, 512> plain_;  ///< small enough to stay in the L1 cache
   bool has_noted_wrap_ = false;
+  bool has_told_damage_ = false;
 
   std::int64_t data_lines_ = 0;
   std::int64_t unreadable_ = 0;
@@ -173,6 +171,15 @@ void TextReader::take(const TextLine& line, std::string_view text, std::vector<E
   }
 }
 
+// The end of a text that lies in a damaged archive.
+void TextReader::take_damage(Losses& losses) {
+  const std::string damage = buffer_.bytes().damage();
+  if (damage.empty() || has_told_damage_) return;
+  has_told_damage_ = true;
+  losses.add(Damage::cut_packet);
+  header_.notes.push_back(fmt::format("the archive is damaged behind line {} ({})", line_number_, damage));
+}
+
 void TextReader::check_duration() const {
   if (dialect_.is_unit_given || clock_.duration_us() <= kDay_us) return;
   throw Error(fmt::format(
@@ -205,7 +212,9 @@ void TextReader::judge() const {
 }  // namespace
 
 std::unique_ptr<FormatReader> open_text(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
-  return std::make_unique<TextReader>(std::move(bytes), options);
+  const std::filesystem::path path = bytes->path();
+  auto reader = std::make_unique<TextReader>(std::move(bytes), options);
+  return path.empty() ? std::move(reader) : with_listed_images(std::move(reader), path);
 }
 
 }  // namespace esi

@@ -16,7 +16,7 @@ const std::vector<Aedat4Event> kFirst = some_aedat4_events(1000, 50);
 const std::vector<Aedat4Event> kLast = some_aedat4_events(5000, 70);
 
 /// A damaged packet between two good ones of 50 and 70 events.
-Aedat4Content read_around(Aedat4Compression compression, const std::string& payload) {
+FormatReading read_around(Aedat4Compression compression, const std::string& payload) {
   Aedat4File file = aedat4_event_file(compression);
   file.add(0, aedat4_event_buffer(kFirst));
   file.add_stored(0, payload);
@@ -57,7 +57,7 @@ TEST_CASE("A damaged AEDAT 4 packet is left out, those around it are read") {
   const auto compression =
       GENERATE(Aedat4Compression::none, Aedat4Compression::lz4, Aedat4Compression::zstd_high);
   INFO(what);
-  const Aedat4Content content = read_around(compression, aedat4_compressed(buffer, compression));
+  const FormatReading content = read_around(compression, aedat4_compressed(buffer, compression));
   CHECK(content.all.events.size() == 120);
   CHECK(content.losses.text() == "1 corrupt_packet");
   CHECK_THAT(content.notes(), Contains("damaged and left out"));
@@ -80,7 +80,7 @@ TEST_CASE("A corrupt LZ4 or zstd frame in an AEDAT 4 file is left out, those aro
       {"noise", std::string(300, '\xee')},
   }));
   INFO(what);
-  const Aedat4Content content = read_around(compression, payload);
+  const FormatReading content = read_around(compression, payload);
   CHECK(content.all.events.size() == 120);
   CHECK(content.losses.text() == "1 corrupt_packet");
 }
@@ -92,7 +92,7 @@ TEST_CASE("A decompression bomb in an AEDAT 4 file is a damaged packet") {
       aedat4_compressed(replaced(std::string(64 * kMiB, '\0'), 0, int32(claim)), compression);
   REQUIRE(bomb.size() < kMiB);
   INFO(claim);
-  const Aedat4Content content = read_around(compression, bomb);
+  const FormatReading content = read_around(compression, bomb);
   CHECK(content.all.events.size() == 120);
   CHECK(content.losses.text() == "1 corrupt_packet");
 }
@@ -101,7 +101,7 @@ TEST_CASE("Many damaged AEDAT 4 packets are counted, but told once") {
   Aedat4File file = aedat4_event_file(Aedat4Compression::lz4);
   for (int i = 0; i < 100; ++i) file.add_stored(0, "damaged");
   for (int i = 0; i < 100; ++i) file.add_stored(9, "of no stream");
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.losses.text() == "200 corrupt_packet");
   CHECK(content.header.notes.size() == 2);
   CHECK_THAT(content.notes(), Contains("is of stream 9, which the header does not declare"));
@@ -126,7 +126,7 @@ TEST_CASE("An AEDAT 4 packet whose size can't be is where reading stops") {
   file.add(0, aedat4_event_buffer(kFirst));
   const std::string position = "at byte " + std::to_string(file.position());
   file.add_stored(stream, "payload", row.size);
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.events.size() == 50);
   CHECK_THAT(content.losses.text(), Contains(row.losses));
   CHECK_THAT(content.notes(), Contains(row.note) && Contains(position));
@@ -147,7 +147,7 @@ TEST_CASE("AEDAT 4 is read in full wherever the header says that its table is") 
                                         {second + 5, "is not at byte " + std::to_string(second + 5)},
                                         {1'000'000'000'000, "is not at byte 1000000000000"},
                                         {INT64_MAX, "is not at byte 9223372036854775807"}}));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes(table_position));
+  const FormatReading content = read_aedat4_bytes(file.bytes(table_position));
   CHECK(content.all.events.size() == 120);
   CHECK(content.losses.text() == "1 missing_table");
   CHECK_FALSE(content.losses.any());
@@ -162,7 +162,7 @@ TEST_CASE("An AEDAT 4 file without table is whole when the recorder never wrote 
   const auto [table_position, losses] = GENERATE_COPY(table<std::int64_t, const char*>(
       {{-1, "1 missing_table"}, {end, ""}, {end + 1, "1 cut_packet"}, {INT64_MAX, "1 cut_packet"}}));
   INFO(table_position);
-  const Aedat4Content content = read_aedat4_bytes(file.bytes_without_table(table_position));
+  const FormatReading content = read_aedat4_bytes(file.bytes_without_table(table_position));
   CHECK(content.all.events.size() == 50);
   CHECK(content.losses.text() == losses);
 }
@@ -173,7 +173,7 @@ TEST_CASE("A damaged table of an AEDAT 4 file loses nothing") {
   Aedat4File file = aedat4_event_file(Aedat4Compression::lz4);
   file.add(0, aedat4_event_buffer(kFirst));
   const auto end = static_cast<std::int64_t>(file.position());
-  const Aedat4Content content = read_aedat4_bytes(file.bytes_without_table(end) + rubbish);
+  const FormatReading content = read_aedat4_bytes(file.bytes_without_table(end) + rubbish);
   CHECK(content.all.events.size() == 50);
   CHECK(content.losses.text().empty());
 }

@@ -22,7 +22,7 @@ Aedat4Frame whole_frame() {
   return frame;
 }
 
-Aedat4Content read_frame(const Aedat4Frame& frame) {
+FormatReading read_frame(const Aedat4Frame& frame) {
   Aedat4File file = frame_file();
   file.add(1, aedat4_frame_buffer(frame));
   return read_aedat4_bytes(file.bytes());
@@ -44,7 +44,7 @@ Aedat4Frame uniform_frame(std::int8_t format, const std::string& pixel) {
 }  // namespace
 
 TEST_CASE("An AEDAT 4 frame keeps its pixels, row by row") {
-  const Aedat4Content content = read_frame(whole_frame());
+  const FormatReading content = read_frame(whole_frame());
   REQUIRE(content.all.frames.size() == 1);
   const cv::Mat expected = (cv::Mat_<uchar>(3, 4) << 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11);
   CHECK(equal(content.all.frames[0].image, expected));
@@ -67,7 +67,7 @@ TEST_CASE("An AEDAT 4 frame's exposure is taken from the best times that it has"
   frame.start_of_exposure_us = row.start_us;
   frame.end_of_exposure_us = row.end_us;
   frame.exposure_us = row.exposure_us;
-  const Aedat4Content content = read_frame(frame);
+  const FormatReading content = read_frame(frame);
   REQUIRE(content.all.frames.size() == 1);
   CHECK(content.all.frames[0].exposure == row.expected);
 }
@@ -85,7 +85,7 @@ TEST_CASE("AEDAT 4 frames of 16 bits keep them, colour becomes grey") {
                             Row{16, "\xff\x00\x00"s, CV_8UC1, 29}, Row{16, "\x00\x00\xff"s, CV_8UC1, 76},
                             Row{24, "\x00\xff\x00\x07"s, CV_8UC1, 150},
                             Row{18, "\x00\x00\x00\x00\x00\x80"s, CV_16UC1, 9798});
-  const Aedat4Content content = read_frame(uniform_frame(row.format, row.pixel));
+  const FormatReading content = read_frame(uniform_frame(row.format, row.pixel));
   REQUIRE(content.all.frames.size() == 1);
   CHECK(equal(content.all.frames[0].image, cv::Mat(3, 4, row.type, cv::Scalar(row.grey))));
 }
@@ -97,7 +97,7 @@ TEST_CASE("An AEDAT 4 frame of a part of the sensor stands at its place") {
   frame.x_px = 1;
   frame.y_px = 2;
   frame.pixels = "\x0a\x0b";
-  const Aedat4Content content = read_frame(frame);
+  const FormatReading content = read_frame(frame);
   REQUIRE(content.all.frames.size() == 1);
   const cv::Mat expected = (cv::Mat_<uchar>(3, 4) << 0, 0, 0, 0, 0, 0, 0, 0, 0, 10, 11, 0);
   CHECK(equal(content.all.frames[0].image, expected));
@@ -126,7 +126,7 @@ TEST_CASE("An AEDAT 4 frame that can't be right is left out, and the events go o
   Aedat4File file = frame_file();
   file.add(1, aedat4_frame_buffer(frame));
   file.add(0, aedat4_event_buffer({{1, 1, 1, 1}}));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.frames.empty());
   CHECK(content.all.events.size() == 1);
   CHECK(content.losses.text() == "1 corrupt_packet");
@@ -138,7 +138,7 @@ TEST_CASE("AEDAT 4 frames of another camera are left out, and that is said") {
   Aedat4File file = frame_file(size, source);
   file.add(1, aedat4_frame_buffer(whole_frame()));
   file.add(0, aedat4_event_buffer({{1, 1, 1, 1}}));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.frames.empty());
   CHECK(content.all.events.size() == 1);
   CHECK_FALSE(content.header.has_intensity_frames);
@@ -150,7 +150,7 @@ TEST_CASE("A small AEDAT 4 frame on an absurd sensor does not become an absurd i
   Aedat4File file(Aedat4Compression::lz4,
                   aedat4_xml(aedat4_stream_xml(0, "EVTS", "32768x32768") + aedat4_stream_xml(1, "FRME", "")));
   file.add(1, aedat4_frame_buffer(whole_frame()));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.frames.empty());
   CHECK(content.losses.text() == "1 corrupt_packet");
 }

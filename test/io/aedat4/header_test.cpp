@@ -86,7 +86,7 @@ TEST_CASE("An AEDAT 4 file without a possible sensor size is read, and that is s
   const std::string size =
       GENERATE("", "0x260", "346x-1", "346x99999999999999", "32769x1", "346.0x260", "ax");
   INFO(size);
-  const Aedat4Content content = read_aedat4_bytes(file_with(aedat4_xml(aedat4_stream_xml(0, "EVTS", size))));
+  const FormatReading content = read_aedat4_bytes(file_with(aedat4_xml(aedat4_stream_xml(0, "EVTS", size))));
   CHECK(content.all.events.size() == 1);
   CHECK_FALSE(content.header.sensor);
   CHECK_THAT(content.notes(), Contains("no possible sensor size"));

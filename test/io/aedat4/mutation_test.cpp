@@ -55,7 +55,7 @@ TEST_CASE("An AEDAT 4 file cut after any byte gives all whole packets before the
     }
     const auto after =
         std::find_if(ends.begin(), ends.end(), [&](const auto& end) { return end.first > length; });
-    const Aedat4Content cut = read_aedat4(path);
+    const FormatReading cut = read_aedat4(path);
     REQUIRE(cut.all.events.size() == std::prev(after)->second);
     CHECK(std::equal(cut.all.events.begin(), cut.all.events.end(), events.begin()));
     CHECK(cut.losses.text() == (length < table ? "1 cut_packet" : ""));
@@ -79,7 +79,7 @@ TEST_CASE("Random damage to an AEDAT 4 file gives events or an Error") {
     }
     if (below(8) == 0) bytes.resize(14 + below(bytes.size() - 14));
     try {
-      const Aedat4Content content = read_aedat4(folder.write(std::to_string(i), bytes));
+      const FormatReading content = read_aedat4(folder.write(std::to_string(i), bytes));
       // What is not compressed gives at most an event for every 16 bytes; a frame decodes into 64 KB blocks.
       REQUIRE(content.all.events.size() <= 4096);
       REQUIRE(content.all.frames.size() <= 3);

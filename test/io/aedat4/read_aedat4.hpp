@@ -2,46 +2,22 @@
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "esi/io/aedat4/reader.hpp"
 #include "support/aedat4_file.hpp"
-#include "support/temp_folder.hpp"
+#include "support/read_format.hpp"
 
 namespace esi::test {
 
-/// All that the reader gives of a file.
-struct Aedat4Content {
-  Packet all;
-  Losses losses;
-  RecordingHeader header;
-  std::size_t most_events_at_once = 0;
-
-  std::string notes() const {
-    std::string text;
-    for (const std::string& note : header.notes) text += note + "\n";
-    return text;
-  }
-};
-
-inline Aedat4Content read_aedat4(const std::filesystem::path& path, const ReadOptions& options = {}) {
-  const auto reader = open_aedat4(std::make_unique<ByteSource>(path), options);
-  Aedat4Content content;
-  std::size_t before = 0;
-  while (reader->read(content.all, content.losses)) {
-    content.most_events_at_once = std::max(content.most_events_at_once, content.all.events.size() - before);
-    before = content.all.events.size();
-  }
-  content.header = reader->header();
-  return content;
+inline FormatReading read_aedat4(const std::filesystem::path& path, const ReadOptions& options = {}) {
+  return read_with(open_aedat4, path, options);
 }
 
 /// Of a file with these bytes.
-inline Aedat4Content read_aedat4_bytes(const std::string& bytes, const ReadOptions& options = {}) {
-  const TempFolder folder;
-  return read_aedat4(folder.write("recording.aedat4", bytes), options);
+inline FormatReading read_aedat4_bytes(const std::string& bytes, const ReadOptions& options = {}) {
+  return read_bytes_with(open_aedat4, bytes, options);
 }
 
 /// `count` events from t_us on, 10 us apart, all different.

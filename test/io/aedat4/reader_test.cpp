@@ -46,7 +46,7 @@ TEST_CASE("AEDAT 4 of every compression gives the events that were stored") {
   file.add(0, aedat4_event_buffer(large));
   file.add(0, aedat4_event_buffer(some_aedat4_events(kStart_us + 500'000, 1)));
 
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   auto expected = as_read(small);
   const auto rest = as_read(large);
   expected.insert(expected.end(), rest.begin(), rest.end());
@@ -98,7 +98,7 @@ TEST_CASE("An AEDAT 4 pipe that trickles gives the same events") {
     std::ofstream out(pipe, std::ios::binary);
     for (std::size_t i = 0; i < bytes.size(); i += 3) out << bytes.substr(i, 3) << std::flush;
   });
-  const Aedat4Content content = read_aedat4(pipe);
+  const FormatReading content = read_aedat4(pipe);
   writer.join();
   CHECK(content.all.events == as_read(events));
   CHECK(content.losses.text().empty());
@@ -116,7 +116,7 @@ TEST_CASE("AEDAT 4 events with negative coordinates are left out, any polarity b
   Aedat4File file = aedat4_event_file(Aedat4Compression::lz4);
   file.add(0, aedat4_event_buffer(stored));
   file.add(0, aedat4_event_buffer({}));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.events == expected);
   CHECK(content.all.packet_ends_us == std::vector<std::int64_t>{3});
   CHECK(content.losses.dropped() == static_cast<std::int64_t>(stored.size() - expected.size()));
@@ -127,7 +127,7 @@ TEST_CASE("AEDAT 4 events whose vector is aligned to 4 bytes only are read") {
   const auto events = some_aedat4_events(kStart_us, 10);
   Aedat4File file = aedat4_event_file(Aedat4Compression::none);
   file.add(0, aedat4_event_buffer(events, 4));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.events == as_read(events));
   CHECK(content.losses.text().empty());
 }
@@ -142,7 +142,7 @@ TEST_CASE("Other streams of an AEDAT 4 file don't stop its events") {
   file.add_stored(7, "");
   file.add_stored(2, "");
   file.add(2, aedat4_event_buffer(events));
-  const Aedat4Content content = read_aedat4_bytes(file.bytes());
+  const FormatReading content = read_aedat4_bytes(file.bytes());
   CHECK(content.all.events.size() == 40);
   CHECK(content.losses.text().empty());
 }
@@ -155,7 +155,7 @@ TEST_CASE("Of several event streams in an AEDAT 4 file one must be chosen") {
   file.add(5, aedat4_event_buffer({{2, 600, 2, 0}}));
   const std::string bytes = file.bytes();
 
-  const Aedat4Content right = read_aedat4_bytes(bytes, with_stream("5"));
+  const FormatReading right = read_aedat4_bytes(bytes, with_stream("5"));
   CHECK(right.all.events == std::vector<Event>{{2, 600, 2, false}});
   CHECK(right.header.sensor == SensorSize{640, 480});
   CHECK(read_aedat4_bytes(bytes, with_stream("0")).all.events == std::vector<Event>{{1, 1, 1, true}});

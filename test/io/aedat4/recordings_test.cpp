@@ -27,7 +27,7 @@ TEST_CASE("Every real AEDAT 4 recording has the digest that other parsers found"
   std::ifstream file(*digests);
   const auto expected = nlohmann::json::parse(file).at(name);
 
-  const Aedat4Content content = read_aedat4(*path);
+  const FormatReading content = read_aedat4(*path);
   EventDigest digest;
   digest.add(content.all.events);
   CHECK(content.header.sensor == SensorSize{expected.at("width"), expected.at("height")});
@@ -76,7 +76,7 @@ TEST_CASE("Real AEDAT 4 recordings keep their intensity frames and packets") {
   if (!path) return;
   INFO(row.name);
 
-  const Aedat4Content content = read_aedat4(*path);
+  const FormatReading content = read_aedat4(*path);
   CHECK(content.header.has_intensity_frames == (row.frames > 0));
   REQUIRE(content.all.frames.size() == row.frames);
   double sum_of_pixels = 0;
@@ -107,7 +107,7 @@ TEST_CASE("A real AEDAT 4 recording cut anywhere gives the events up to the cut"
       CHECK_THROWS_AS(read_aedat4_bytes(whole.substr(0, length)), Error);
       continue;
     }
-    const Aedat4Content cut = read_aedat4_bytes(whole.substr(0, length));
+    const FormatReading cut = read_aedat4_bytes(whole.substr(0, length));
     const auto& got = cut.all.events;
     REQUIRE(got.size() <= events.size());
     CHECK(std::equal(got.begin(), got.end(), events.begin()));

@@ -50,7 +50,7 @@ TEST_CASE("HDF5 without a known layout: the message lists what was found, up to 
   const TempFolder folder;
   {
     Hdf5Writer file(folder / "a.h5");
-    file.column("/davis/left/events", {1});
+    file.column("/davis/left/imu", {1});
     file.column("/events/x", {1});
     file.column("/bad\nname", {1});
     Hdf5Writer many(folder / "many.h5");
@@ -58,7 +58,7 @@ TEST_CASE("HDF5 without a known layout: the message lists what was found, up to 
     const Hdf5Writer none(folder / "none.h5");
   }
   const std::string message = hdf5_error(folder / "a.h5");
-  CHECK_THAT(message, Contains("datasets found: /bad?name, /davis/left/events, /events/x;"));
+  CHECK_THAT(message, Contains("datasets found: /bad?name, /davis/left/imu, /events/x;"));
   CHECK_THAT(message,
              Contains("/events/{x,y,t,p} (DSEC, TUM-VIE)") && Contains("M3ED") && Contains("e2calib"));
   const std::string long_message = hdf5_error(folder / "many.h5");
@@ -89,7 +89,8 @@ TEST_CASE("HDF5 columns that cannot be events are refused, each by name") {
       {"text", shaped("/events/p", {100}, text), "/events/p", "does not hold integers"},
       {"128 bits", shaped("/events/t", {100}, wide), "/events/t",
        "does not hold integers of at most 64 bits"},
-      {"short column", shaped("/events/y", {99}, H5T_STD_U16LE), "/events/y", "has 99 rows, but t has 100"},
+      {"short column", shaped("/events/y", {99}, H5T_STD_U16LE), "/events/y",
+       "has 99 rows, but /events/t has 100"},
       {"two dimensions", shaped("/events/x", {100, 1}, H5T_STD_U16LE), "/events/x", "2 dimensions"},
       {"three dimensions", shaped("/events/x", {100, 1, 1}, H5T_STD_U16LE), "/events/x", "3 dimensions"},
       {"one value", shaped("/events/x", {}, H5T_STD_U16LE), "/events/x", "single value"},

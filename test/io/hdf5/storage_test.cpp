@@ -170,8 +170,8 @@ TEST_CASE("Rows of a two-dimensional HDF5 dataset are read, chunks or not") {
     const Hdf5File file(bytes);
     Hdf5Dataset dataset(file, "/davis/left/events");
     CHECK(dataset.rows() == 10);
-    CHECK(dataset.shape().values_per_row == 4);
-    CHECK(dataset.shape().chunk_rows == (is_chunked ? 3 : 0));
+    CHECK(dataset.shape().values_per_row() == 4);
+    CHECK(dataset.shape().chunk_rows() == (is_chunked ? 3 : 0));
     CHECK(dataset.first_gap(2, 10) == 10);
     double read[20];
     CHECK(dataset.read(4, 5, H5T_NATIVE_DOUBLE, read) == std::nullopt);
