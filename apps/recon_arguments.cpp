@@ -74,12 +74,16 @@ bool parse_recon_arguments(int argc, const char* const* argv, ReconArguments& ar
   app.add_flag("--quiet", arguments.quiet, "no progress and no summary")->group(running);
   const std::string asking = "Asking";
   app.add_flag("--info", arguments.info, "say what the recordings hold")->group(asking);
+  app.add_flag("--check", arguments.check,
+               "--info, and whether the recordings are good: rate, pauses, hot pixels")
+      ->group(asking);
   app.add_flag("--json", arguments.json, "--info as JSON")->group(asking);
   app.add_flag("--list-methods", arguments.list_methods, "methods, sources and defaults")->group(asking);
   app.add_flag("--list-formats", arguments.list_formats, "formats that can be read")->group(asking);
   app.add_flag("--print-config", arguments.print_config, "the merged options as a config")->group(asking);
   if (!parse(app, argc, argv, exit_code)) return false;
 
+  arguments.info = arguments.info || arguments.check;
   if (!config_file.empty()) arguments.config.load(config_file);
   if (!method.empty()) arguments.config.choose_method(method);
   for (const std::string& setting : settings) arguments.config.set(setting);

@@ -17,6 +17,7 @@ struct ReconArguments {
   int jobs = 1;
   bool quiet = false;
   bool info = false;
+  bool check = false;  ///< with info
   bool json = false;
   bool list_methods = false;
   bool list_formats = false;

@@ -6,15 +6,33 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.hpp"
+#include "esi/io/check/recording_check.hpp"
 #include "esi/io/recording_info.hpp"
 
 namespace esi::cli {
 namespace {
 
-nlohmann::json info_json(const RecordingInfo& info, const std::string& path) {
-  nlohmann::json json = to_json(info);
-  json["path"] = path;
-  return json;
+/// What is said of one recording.
+struct Answer {
+  nlohmann::json json;
+  std::string text;
+  bool has_losses = false;
+};
+
+Answer inquire(const std::filesystem::path& path, const ReconArguments& arguments) {
+  const auto source = open_recording(path, arguments.config.read);
+  RecordingInfo info;
+  std::optional<CheckReport> check;
+  if (arguments.check) {
+    check = check_recording(*source, info);
+  } else {
+    info = inspect(*source);
+  }
+  Answer answer{to_json(info), path.string() + "\n" + to_text(info), info.losses.any()};
+  answer.json["path"] = path.string();
+  if (check) answer.json["check"] = to_json(*check, info);
+  if (check) answer.text += to_text(*check);
+  return answer;
 }
 
 std::string dump(const nlohmann::json& json) {
@@ -51,14 +69,12 @@ int print_info(const ReconArguments& arguments) {
   nlohmann::json all = nlohmann::json::array();
   for (const auto& path : arguments.recordings) {
     try {
-      const auto source = open_recording(path, arguments.config.read);
-      const RecordingInfo info = inspect(*source);
-      if (info.losses.any()) worst = std::max<int>(worst, kDoneWithLosses);
+      Answer answer = inquire(path, arguments);
+      if (answer.has_losses) worst = std::max<int>(worst, kDoneWithLosses);
       if (arguments.json) {
-        all.push_back(info_json(info, path.string()));
+        all.push_back(std::move(answer.json));
       } else {
-        fmt::print("{}{}\n{}", &path == &arguments.recordings.front() ? "" : "\n", path.string(),
-                   to_text(info));
+        fmt::print("{}{}", &path == &arguments.recordings.front() ? "" : "\n", answer.text);
       }
     } catch (const std::exception& error) {
       worst = worst_of(worst, report("esi-recon", error));
