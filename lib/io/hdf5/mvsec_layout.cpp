@@ -35,8 +35,10 @@ std::unique_ptr<Hdf5FrameTrack> open_images(const Hdf5File& file, const std::str
 Hdf5Content open_mvsec(const Hdf5File& file, const ReadOptions& options, RecordingHeader& header) {
   const std::string stream = choose_stream(file, options, streams_of(file));
   header.layout += ", " + stream;
-  auto events = std::make_unique<MvsecEvents>(file, group_of(stream) + "events", header.notes);
-  return {std::move(events), open_images(file, group_of(stream), options, header)};
+  Hdf5Content content;
+  content.events = std::make_unique<MvsecEvents>(file, group_of(stream) + "events", header.notes);
+  content.frames = open_images(file, group_of(stream), options, header);
+  return content;
 }
 
 }  // namespace
