@@ -6,7 +6,7 @@ namespace esi::fuzz {
 namespace {
 
 constexpr const char* kConfig = R"({"method": "esi", "set": {"tau_s": 2.0, "decay": "power"}, "fps": 50,
-  "size": "240x180", "roi": "10,10,20x20", "start_s": 0.5, "strict": true})";
+  "size": "240x180", "roi": "10,10,20x20", "start": 0.5, "strict": true})";
 
 constexpr const char* kGroundTruth = R"({"phases": [{"name": "a", "start_s": 0, "end_s": 1.5},
   {"name": "b", "start_s": 2, "end_s": 3}], "tags": {"family": "tag36h11", "ids": [0, 1], "size_m": {"0": 0.3}},
