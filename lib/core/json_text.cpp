@@ -65,4 +65,8 @@ json parse_json(std::string_view text, const std::string& name) {
   }
 }
 
+std::string json_text(const json& document) {
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace esi

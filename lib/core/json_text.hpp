@@ -11,4 +11,7 @@ namespace esi {
 /// `name` is what the message calls the text, usually the file's path.
 nlohmann::json parse_json(std::string_view text, const std::string& name);
 
+/// For files and for people: indented, a line break at the end; bytes that aren't UTF-8 are replaced.
+std::string json_text(const nlohmann::json& json);
+
 }  // namespace esi
