@@ -33,6 +33,8 @@ class Hdf5Handle {
 
   hid_t get() const { return id_; }
   explicit operator bool() const { return id_ >= 0; }
+  /// Gives the identifier away: the caller closes it.
+  hid_t release() { return std::exchange(id_, H5I_INVALID_HID); }
 
  private:
   void close() noexcept;

@@ -56,7 +56,7 @@ class FrameSink {
   virtual void write(const Frame& frame) = 0;
 
   /// All frames are written and checked when this returns; `manifest` (JSON text) is written last. A pipe
-  /// takes no manifest.
+  /// takes no manifest, and a video may go without one (empty) as part of something larger.
   virtual void finish(const std::string& manifest) = 0;
 
   /// Ends early: keeps the frames that are whole, from the first without a gap, and doesn't mark them as

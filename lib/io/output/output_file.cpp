@@ -33,7 +33,7 @@ void require_replaceable(const std::filesystem::path& path) {
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
   part_ += ".part";
   require_replaceable(path_);
-  file_ = FileDescriptor(::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666));
+  file_ = FileDescriptor(::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (!file_.is_open()) throw system_error(path_.string(), "cannot be created", errno);
   part_exists_ = true;
 }
@@ -53,6 +53,38 @@ void OutputFile::write(std::string_view text) {
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) { write(as_text(bytes)); }
+
+void OutputFile::write_at(std::uint64_t position, std::span<const std::byte> bytes) {
+  flush();
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(position));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw system_error(path_.string(), "cannot be written", errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    position += static_cast<std::uint64_t>(written);
+  }
+}
+
+std::size_t OutputFile::read_at(std::uint64_t position, std::span<std::byte> target) {
+  flush();
+  std::size_t done = 0;
+  while (done < target.size()) {
+    const ssize_t size =
+        ::pread(file_.get(), target.data() + done, target.size() - done, static_cast<off_t>(position + done));
+    if (size == 0) break;
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) throw system_error(path_.string(), "cannot be read back", errno);
+    done += static_cast<std::size_t>(size);
+  }
+  return done;
+}
+
+void OutputFile::resize(std::uint64_t bytes) {
+  flush();
+  if (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) {
+    throw system_error(path_.string(), "cannot be written", errno);
+  }
+}
 
 void OutputFile::commit() {
   flush();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -22,6 +23,13 @@ class OutputFile {
 
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
+
+  /// For files that are not written from front to back. write() goes on where it was.
+  void write_at(std::uint64_t position, std::span<const std::byte> bytes);
+  /// What has been written there; returns how many bytes, fewer than asked for at the end.
+  std::size_t read_at(std::uint64_t position, std::span<std::byte> target);
+  void resize(std::uint64_t bytes);
+
   /// Nothing can be written after it.
   void commit();
 

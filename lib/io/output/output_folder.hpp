@@ -4,23 +4,39 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "esi/io/output/frame_sink.hpp"
 #include "esi/io/output/lock_file.hpp"
 
 namespace esi {
 
+/// What a tool's folder may hold: what --force replaces.
+struct FolderContent {
+  const char* what;                           ///< "a reconstruction"
+  bool (*has_file)(std::string_view name);    ///< of a file in it
+  bool (*has_folder)(std::string_view name);  ///< of a folder in it, which holds numbered pictures and lists
+  bool can_be_resumed;
+};
+
+/// Frames, their lists and run.json.
+extern const FolderContent kReconstructionContent;
+
+/// "frame_", digits, ".png".
+bool is_picture_name(std::string_view name);
+
 /// What stands at "fingerprint" in a JSON file such as run.json; empty where there is none.
 std::optional<std::string> fingerprint_in(const std::filesystem::path& json_file);
 
-/// The folder of one reconstruction, held by one run at a time. While it is incomplete it holds
+/// The folder that one run fills, held by one run at a time. While it is incomplete it holds
 /// .esi-incomplete with the run's fingerprint.
 class OutputFolder {
  public:
   /// Makes the folder and what leads to it. Throws a usage Error for a folder that is not empty, unless
-  /// options.force (replaces a reconstruction, and refuses if there is anything else) or options.resume
-  /// (needs an incomplete folder of the same fingerprint).
-  OutputFolder(std::filesystem::path path, const SinkOptions& options, const std::string& fingerprint);
+  /// options.force (replaces such content, and refuses if there is anything else) or options.resume (needs an
+  /// incomplete folder of the same fingerprint).
+  OutputFolder(std::filesystem::path path, const SinkOptions& options, const std::string& fingerprint,
+               const FolderContent& content = kReconstructionContent);
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path frame_path(std::int64_t index) const;

@@ -7,6 +7,7 @@
 #include <array>
 #include <ctime>
 
+#include "esi/core/json_text.hpp"
 #include "esi/core/version.hpp"
 #include "esi/io/recording_info.hpp"
 
@@ -47,6 +48,13 @@ nlohmann::json events_json(const RunManifest& manifest) {
 
 }  // namespace
 
+nlohmann::json to_json(const RunManifest::Run& run) {
+  return {{"threads", run.threads},
+          {"wall_s", run.wall_s},
+          {"host", host_name()},
+          {"date", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
+}
+
 std::string to_text(const RunManifest& manifest) {
   const nlohmann::json json = {
       {"tool", manifest.tool},
@@ -57,13 +65,9 @@ std::string to_text(const RunManifest& manifest) {
       {"frames", manifest.frames},
       {"config", manifest.config},
       {"fingerprint", manifest.fingerprint},
-      {"run",
-       {{"threads", manifest.run.threads},
-        {"wall_s", manifest.run.wall_s},
-        {"host", host_name()},
-        {"date", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}}},
+      {"run", to_json(manifest.run)},
   };
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace esi

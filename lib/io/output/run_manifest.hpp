@@ -28,8 +28,12 @@ struct RunManifest {
   struct Run {
     int threads = 1;
     double wall_s = 0;
-  } run;
+  };
+  Run run;
 };
+
+/// The block "run", with host and date added: all that may differ between two runs of the same command.
+nlohmann::json to_json(const RunManifest::Run& run);
 
 /// As JSON text, with host, date and run time in the block "run" only.
 std::string to_text(const RunManifest& manifest);

@@ -135,7 +135,7 @@ void VideoSink::finish(const std::string& manifest) {
   if (frames_taken_ == 0) throw Error(path_.string() + ": there are no frames, and a video needs one");
   close_and_check();
   put_in_place();
-  write_file(manifest_path(path_), manifest);
+  if (!manifest.empty()) write_file(manifest_path(path_), manifest);
 }
 
 void VideoSink::stop() {
