@@ -13,7 +13,12 @@
 namespace esi::cli {
 namespace {
 
-std::string flag_name(std::string name) {
+constexpr int kMaxThreads = 1024;
+
+/// Seconds go without saying on a command line; other units stay in the name.
+std::string flag_name(const Option& option) {
+  std::string name = option.name();
+  if (option.unit() == "s" && name.ends_with("_s")) name.resize(name.size() - 2);
   std::replace(name.begin(), name.end(), '_', '-');
   return "--" + name;
 }
@@ -69,10 +74,17 @@ int guarded(const std::string& tool, const std::function<int()>& body) {
   }
 }
 
+int checked_threads(const char* flag, std::int64_t given) {
+  if (given < 1 || given > kMaxThreads) {
+    throw usage_error(fmt::format("{}: {} is not possible, give 1 to {}", flag, given, kMaxThreads));
+  }
+  return static_cast<int>(given);
+}
+
 void TableFlags::add(CLI::App& app, OptionTable table, const std::string& group) {
   for (const Option& option : table.options()) {
     Flag& flag = flags_.emplace_back(Flag{option, nullptr, option.text(), false});
-    const std::string name = flag_name(option.name());
+    const std::string name = flag_name(option);
     if (option.is_switch()) {
       flag.flag = app.add_flag(name + ",!--no-" + name.substr(2), flag.state, help_of(option));
     } else {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <list>
 #include <string>
@@ -37,7 +38,10 @@ void say(const std::string& tool, const std::string& what);
 /// The line and the exit code for an exception.
 int report(const std::string& tool, const std::exception& error);
 
-/// Command-line flags made from option tables: time_zero becomes --time-zero.
+/// What was given for --threads or the like. Throws a usage Error unless it is 1 to 1024.
+int checked_threads(const char* flag, std::int64_t given);
+
+/// Command-line flags made from option tables: time_zero becomes --time-zero, duration_s --duration.
 class TableFlags {
  public:
   /// The table's struct must outlive this.

@@ -54,7 +54,9 @@ std::string man_page(const CLI::App& app) {
   std::string text =
       fmt::format(".TH {} 1 \"\" \"esi {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", app.get_name(),
                   version(), groff(app.get_name()), groff(app.get_description()));
-  text += fmt::format(".SH SYNOPSIS\n.B {}\n[OPTION]... RECORDING...\n.SH OPTIONS\n", groff(app.get_name()));
+  const bool takes_recordings = app.get_option_no_throw("RECORDING") != nullptr;
+  text += fmt::format(".SH SYNOPSIS\n.B {}\n[OPTION]...{}\n.SH OPTIONS\n", groff(app.get_name()),
+                      takes_recordings ? " RECORDING..." : "");
   for (const std::string& group : app.get_groups()) {
     if (group.empty()) continue;
     text += ".SS " + groff(group) + "\n";

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxThreads = 1024;
-
 bool has_known_extension(const fs::path& path) {
   const std::string extension = path.extension().string();
   return !extension.empty() && std::any_of(formats().begin(), formats().end(), [&](const Format& format) {
@@ -37,13 +35,6 @@ void add_recordings(const std::string& given, std::vector<fs::path>& recordings)
   if (found.empty()) throw Error(given + ": there are no recordings in this folder (see --list-formats)");
   std::sort(found.begin(), found.end());
   recordings.insert(recordings.end(), found.begin(), found.end());
-}
-
-int checked_threads(const char* flag, std::int64_t given) {
-  if (given < 1 || given > kMaxThreads) {
-    throw usage_error(fmt::format("{}: {} is not possible, give 1 to {}", flag, given, kMaxThreads));
-  }
-  return static_cast<int>(given);
 }
 
 }  // namespace

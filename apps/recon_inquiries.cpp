@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.hpp"
+#include "esi/core/json_text.hpp"
 #include "esi/io/check/recording_check.hpp"
 #include "esi/io/recording_info.hpp"
 
@@ -35,10 +36,6 @@ Answer inquire(const std::filesystem::path& path, const ReconArguments& argument
   return answer;
 }
 
-std::string dump(const nlohmann::json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace
 
 std::string methods_text() {
@@ -62,7 +59,7 @@ std::string formats_text() {
   return text;
 }
 
-std::string config_text(const ReconConfig& config) { return dump(config.json()); }
+std::string config_text(const ReconConfig& config) { return json_text(config.json()); }
 
 int print_info(const ReconArguments& arguments) {
   int worst = kDone;
@@ -80,7 +77,7 @@ int print_info(const ReconArguments& arguments) {
       worst = worst_of(worst, report("esi-recon", error));
     }
   }
-  if (arguments.json) fmt::print("{}", dump(all.size() == 1 ? all.front() : all));
+  if (arguments.json) fmt::print("{}", json_text(all.size() == 1 ? all.front() : all));
   return worst;
 }
 

@@ -40,7 +40,7 @@ function(esi_install_tool tool)
     ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endfunction()
 
-foreach(tool IN ITEMS esi-recon)
+foreach(tool IN ITEMS esi-recon esi-sim)
   if(TARGET ${tool})
     esi_install_tool(${tool})
   endif()

@@ -1,28 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <string>
 
 #include "esi/core/frame_schedule.hpp"
 #include "esi/io/event_digest.hpp"
 #include "esi/io/event_source.hpp"
 #include "esi/io/output/frame_sink.hpp"
+#include "esi/pipeline/progress.hpp"
 #include "esi/recon/reconstructor.hpp"
 
 namespace esi {
-
-/// How far a reconstruction is.
-struct Progress {
-  std::int64_t events = 0;
-  std::int64_t frames = 0;
-  std::int64_t t_us = 0;           ///< of the recording
-  std::optional<double> fraction;  ///< of the recording's bytes
-};
-
-/// Is told now and then; returns false to stop early.
-using Observer = std::function<bool(const Progress&)>;
 
 struct Reconstruction {
   EventDigest digest;  ///< of the events used

@@ -1,6 +1,6 @@
 # Installs the build into a fresh prefix and looks at what is there: a consumer's project that finds, builds
 # against and runs the library, every installed header, the tool, its man page and its completion.
-# Takes BUILD_DIR, SOURCE_DIR, WORK_DIR, GENERATOR, BUILD_TYPE, CXX_COMPILER, CXX_FLAGS.
+# Takes BUILD_DIR, SOURCE_DIR, WORK_DIR, GENERATOR, BUILD_TYPE, CXX_COMPILER.
 set(prefix ${WORK_DIR}/prefix)
 set(consumer ${WORK_DIR}/consumer)
 file(REMOVE_RECURSE ${WORK_DIR})
@@ -29,13 +29,17 @@ file(WRITE ${consumer}/all_headers.cpp "${includes}")
 
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${consumer} -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
-  -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=NO)
+  -DCMAKE_FIND_USE_PACKAGE_REGISTRY=NO)
 run(${CMAKE_COMMAND} --build ${consumer})
-run(${consumer}/consumer ${SOURCE_DIR}/data-samples/moving_tag.txt)
-expect("${output}" "^240x180 at 300000 us, middle [0-9]+\n$" "the consumer")
+run(${consumer}/consumer ${SOURCE_DIR}/data-samples/flight-start/events.txt)
+expect("${output}" "^128x96 at 199979 us, middle [0-9]+\n$" "the consumer")
 
 run(${prefix}/bin/esi-recon --version)
 expect("${output}" "[0-9]+\\.[0-9]+\\.[0-9]+" "--version")
+run(${prefix}/bin/esi-sim --config ${prefix}/share/esi/configs/sim/flight-dim.json --print-config)
+expect("${output}" "\"illuminance_lux\": 10" "an installed preset")
+file(READ ${prefix}/share/man/man1/esi-sim.1 man)
+expect("${man}" "illuminance" "the man page of esi-sim")
 file(READ ${prefix}/share/man/man1/esi-recon.1 man)
 expect("${man}" "\\.TH " "the man page")
 expect("${man}" "fps" "the man page")

@@ -19,11 +19,13 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// All names and bytes of a folder but run.json, for comparing two folders.
+/// All names and bytes of a folder, and of those in it, but run.json, for comparing two folders.
 inline std::string digest_of(const std::filesystem::path& folder) {
   std::string digest;
   for (const std::string& name : names_in(folder)) {
-    if (name != "run.json") digest += name + "\n" + content_of(folder / name);
+    if (name == "run.json") continue;
+    const std::filesystem::path path = folder / name;
+    digest += name + "\n" + (std::filesystem::is_directory(path) ? digest_of(path) : content_of(path));
   }
   return digest;
 }

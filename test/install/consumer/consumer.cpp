@@ -5,7 +5,7 @@
 
 int main(int, char** arguments) {
   esi::ReadOptions options;
-  options.size = "240x180";
+  options.size = "128x96";
   const auto recording = esi::open_recording(arguments[1], options);
   const auto method = esi::method_named("esi").configure()->create(*recording->sensor_size());
 
@@ -16,5 +16,5 @@ int main(int, char** arguments) {
   }
   cv::Mat1b grey;
   method->render(end_us, grey);
-  std::cout << grey.cols << "x" << grey.rows << " at " << end_us << " us, middle " << +grey(90, 120) << "\n";
+  std::cout << grey.cols << "x" << grey.rows << " at " << end_us << " us, middle " << +grey(48, 64) << "\n";
 }
