@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/timing.hpp"
 #include "esi/io/byte_source.hpp"
 #include "esi/io/event_source.hpp"
 #include "esi/io/output/encode_png.hpp"
@@ -22,17 +23,13 @@
 namespace {
 
 namespace fs = std::filesystem;
+using esi::bench::median;
 constexpr int kRounds = 7;
 
 double seconds_of(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 struct Comparison {

@@ -3,8 +3,6 @@
 //   build/release/bin/bench_recon
 
 #include <fmt/format.h>
-#include <time.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/timing.hpp"
 #include "esi/core/packet.hpp"
 #include "esi/recon/esi.hpp"
 #include "support/shared_data.hpp"
@@ -21,6 +20,8 @@
 namespace {
 
 using esi::Event;
+using esi::bench::median;
+using esi::bench::seconds;
 
 constexpr int kRounds = 31;
 
@@ -81,18 +82,6 @@ class Floor {
   std::vector<esi::EsiPixel> pixels_;
 };
 
-double cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double seconds(const std::function<void()>& work) {
-  const double begin_s = cpu_s();
-  work();
-  return cpu_s() - begin_s;
-}
-
 /// As in a pipeline: packets come one after another in the same buffer. Copying into it isn't timed.
 template <class Target>
 double seconds_for(const Stream& stream, Target& target) {
@@ -104,12 +93,6 @@ double seconds_for(const Stream& stream, Target& target) {
     sum_s += seconds([&] { target.process(std::span(packet).first(count)); });
   }
   return sum_s;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 esi::EsiOptions with(esi::Decay decay, double n, double alpha_hz, bool readout_decay) {
