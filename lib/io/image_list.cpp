@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "esi/core/error.hpp"
-#include "esi/core/time.hpp"
-#include "esi/io/output/output_file.hpp"
+#include "esi/io/picture_list.hpp"
 
 namespace esi {
 namespace {
@@ -19,56 +16,15 @@ namespace fs = std::filesystem;
 /// So many pictures are in memory at a time, however sparse the events are.
 constexpr std::size_t kMostImagesAtOnce = 16;
 
-struct ListedImage {
-  std::int64_t t_us = 0;
-  fs::path file;
-};
-
 /// OpenCV prints where it meets none.
-bool exists(const ListedImage& image) {
+bool exists(const ListedPicture& image) {
   std::error_code absent;
   return fs::is_regular_file(image.file, absent);
 }
 
-/// "<seconds> <file>"
-std::optional<ListedImage> parse_line(std::string_view line, const fs::path& folder) {
-  double t_s = 0;
-  const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), t_s);
-  line.remove_prefix(static_cast<std::size_t>(stop - line.data()));
-  const std::size_t name = line.find_first_not_of(" \t");
-  constexpr double kLongest_s = 1e12;  // keeps microseconds within 64 bits
-  if (error != std::errc{} || !(std::abs(t_s) < kLongest_s) || name == 0 || name == std::string_view::npos)
-    return std::nullopt;
-  return ListedImage{us_from_seconds(t_s), folder / line.substr(name)};
-}
-
-/// By time. Throws an Error with the line.
-std::vector<ListedImage> read_list(const fs::path& path) {
-  const std::string text = read_text_file(path);
-  std::vector<ListedImage> images;
-  std::size_t line_number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line(text.data() + begin, end - begin);
-    begin = end + 1;
-    ++line_number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.empty() || line.front() == '#') continue;
-    auto image = parse_line(line, path.parent_path());
-    if (!image) {
-      throw Error(fmt::format("{}: line {} is not a time in seconds and a picture's name", path.string(),
-                              line_number));
-    }
-    images.push_back(std::move(*image));
-  }
-  const auto is_earlier = [](const ListedImage& a, const ListedImage& b) { return a.t_us < b.t_us; };
-  std::stable_sort(images.begin(), images.end(), is_earlier);
-  return images;
-}
-
 class ReaderWithImages final : public FormatReader {
  public:
-  ReaderWithImages(std::unique_ptr<FormatReader> reader, std::vector<ListedImage> images, std::string note)
+  ReaderWithImages(std::unique_ptr<FormatReader> reader, std::vector<ListedPicture> images, std::string note)
       : reader_(std::move(reader)), images_(std::move(images)), note_(std::move(note)) {
     update_header();
   }
@@ -120,7 +76,7 @@ class ReaderWithImages final : public FormatReader {
   }
 
   void add_image(Packet& packet, Losses& losses) {
-    const ListedImage& image = images_[next_image_++];
+    const ListedPicture& image = images_[next_image_++];
     cv::Mat pixels;
     if (exists(image)) pixels = cv::imread(image.file.string(), cv::IMREAD_GRAYSCALE);
     if (pixels.empty()) {
@@ -137,7 +93,7 @@ class ReaderWithImages final : public FormatReader {
   }
 
   std::unique_ptr<FormatReader> reader_;
-  std::vector<ListedImage> images_;
+  std::vector<ListedPicture> images_;
   std::size_t next_image_ = 0;
   Packet pending_;  ///< what the reader gave; handed out up to next_event_
   std::size_t next_event_ = 0;
@@ -153,10 +109,10 @@ std::unique_ptr<FormatReader> with_listed_images(std::unique_ptr<FormatReader> r
   const fs::path list = recording.parent_path() / "images.txt";
   std::error_code absent;
   if (!fs::is_regular_file(list, absent)) return reader;
-  std::vector<ListedImage> images;
+  std::vector<ListedPicture> images;
   std::string note;
   try {
-    images = read_list(list);
+    images = read_picture_list(list);
   } catch (const Error& error) {
     note = fmt::format("pictures are not used: {}", error.what());
   }
