@@ -38,50 +38,41 @@ struct Integrator {
         epoch_us(epoch) {}
 
   /// No branches: the polarity selects from a table, the clamp is a maximum and a minimum.
-  template <class Loss>
-  void add(std::span<const Event> events, const Loss& loss, EsiPixel* pixels) const {
+  /// `weight(i)` is what event i counts.
+  template <class Loss, class Weight>
+  void add(std::span<const Event> events, const Weight& weight, const Loss& loss, EsiPixel* pixels) const {
     const Integrator self = *this;  // a local, so that stores to pixels can't change it
     const auto pixel_of = [&self, pixels](const Event& event) {
       return pixels + (event.y * self.width_px + event.x);
     };
-    const auto take = [&](const Event& event) {
+    const auto take = [&](std::size_t i) {
+      const Event& event = events[i];
       EsiPixel& pixel = *pixel_of(event);
       const auto t_us = static_cast<std::int32_t>(event.t_us - self.epoch_us);
-      const float e = pixel.e - pixel.e * loss(t_us - pixel.t_us) + self.c[event.on];
+      const float e = pixel.e - pixel.e * loss(t_us - pixel.t_us) + self.c[event.on] * weight(i);
       pixel = {std::min(std::max(e, self.e_min), self.e_max), t_us};
     };
-    const std::size_t tail = std::min(kPrefetchEvents, events.size());
-    for (const Event& event : events.first(events.size() - tail)) {
-      __builtin_prefetch(pixel_of(*(&event + kPrefetchEvents)), 1);
-      take(event);
+    const std::size_t fetched = events.size() - std::min(kPrefetchEvents, events.size());
+    for (std::size_t i = 0; i < fetched; ++i) {
+      __builtin_prefetch(pixel_of(events[i + kPrefetchEvents]), 1);
+      take(i);
     }
-    for (const Event& event : events.last(tail)) take(event);
+    for (std::size_t i = fetched; i < events.size(); ++i) take(i);
   }
 };
 
-/// I = 255 (E - e_min) / (e_max - e_min), rounded.
+/// I = 255 (E - e_min) / (e_max - e_min)
 struct Readout {
   float scale;
   float offset;
 
   explicit Readout(const EsiOptions& options)
       : scale(static_cast<float>(255.0 / (options.e_max - options.e_min))),
-        offset(static_cast<float>(0.5 - 255.0 * options.e_min / (options.e_max - options.e_min))) {}
+        offset(static_cast<float>(-255.0 * options.e_min / (options.e_max - options.e_min))) {}
 
+  float level_of(float e) const { return e * scale + offset; }
   std::uint8_t grey_of(float e) const {
-    return static_cast<std::uint8_t>(static_cast<std::int32_t>(e * scale + offset));
-  }
-
-  void show(std::span<const EsiPixel> pixels, std::uint8_t* grey) const {
-    for (std::size_t x = 0; x < pixels.size(); ++x) grey[x] = grey_of(pixels[x].e);
-  }
-
-  template <class Loss>
-  void show_decayed(std::span<const EsiPixel> pixels, std::int32_t t_us, const Loss& loss,
-                    std::uint8_t* grey) const {
-    for (std::size_t x = 0; x < pixels.size(); ++x) {
-      grey[x] = grey_of(pixels[x].e - pixels[x].e * loss(t_us - pixels[x].t_us));
-    }
+    return static_cast<std::uint8_t>(static_cast<std::int32_t>(e * scale + (offset + 0.5F)));
   }
 };
 
@@ -117,21 +108,35 @@ Esi::Esi(const EsiOptions& options, SensorSize size)
   options_.check();
 }
 
-void Esi::process(std::span<const Event> events) {
+void Esi::take(std::span<const Event> events, std::span<const float> weights) {
   if (events.empty()) return;
   if (!has_events_) epoch_us_ = events.front().t_us;
   has_events_ = true;
   t_last_us_ = events.back().t_us;
-  while (!events.empty()) {
+  while (true) {
     const std::size_t near = events_near_epoch(events);
-    const Integrator integrator(options_, size_, epoch_us_);
-    std::visit([&](const auto& loss) { integrator.add(events.first(near), loss, pixels_.data()); }, loss_);
+    integrate(events.first(near), weights.first(std::min(near, weights.size())));
+    if (near == events.size()) return;
     events = events.subspan(near);
-    if (events.empty()) return;
+    if (!weights.empty()) weights = weights.subspan(near);
     // At this event, whichever call brings it: how events are cut into calls leaves no trace.
     move_epoch(events.front().t_us - epoch_us_, pixels_);
     epoch_us_ = events.front().t_us;
   }
+}
+
+void Esi::integrate(std::span<const Event> events, std::span<const float> weights) {
+  const Integrator integrator(options_, size_, epoch_us_);
+  const auto add = [&](const auto& loss) {
+    if (weights.empty()) {
+      integrator.add(
+          events, [](std::size_t) { return 1.0F; }, loss, pixels_.data());
+    } else {
+      integrator.add(
+          events, [&](std::size_t i) { return weights[i]; }, loss, pixels_.data());
+    }
+  };
+  std::visit(add, loss_);
 }
 
 std::size_t Esi::events_near_epoch(std::span<const Event> events) const {
@@ -152,16 +157,26 @@ void Esi::move_epoch(std::int64_t by_us, std::span<EsiPixel> pixels) const {
 }
 
 void Esi::render(std::int64_t t_us, cv::Mat1b& grey) {
-  grey.create(size_.height_px, size_.width_px);
-  if (options_.readout_decay) {
-    render_decayed(std::max(t_us, t_last_us_) - epoch_us_, grey);
-    return;
-  }
-  const Readout readout(options_);
-  for (int y = 0; y < grey.rows; ++y) readout.show(row(pixels_, y), grey[y]);
+  show(t_us, grey, [readout = Readout(options_)](float e) { return readout.grey_of(e); });
 }
 
-void Esi::render_decayed(std::int64_t since_epoch_us, cv::Mat1b& grey) const {
+void Esi::render_levels(std::int64_t t_us, cv::Mat1f& levels) {
+  show(t_us, levels, [readout = Readout(options_)](float e) { return readout.level_of(e); });
+}
+
+template <class Image, class Shade>
+void Esi::show(std::int64_t t_us, Image& image, Shade shade) const {
+  image.create(size_.height_px, size_.width_px);
+  if (options_.readout_decay) return show_decayed(std::max(t_us, t_last_us_) - epoch_us_, image, shade);
+  for (int y = 0; y < image.rows; ++y) {
+    const std::span<const EsiPixel> pixels = row(pixels_, y);
+    auto* const shown = image[y];
+    for (std::size_t x = 0; x < pixels.size(); ++x) shown[x] = shade(pixels[x].e);
+  }
+}
+
+template <class Image, class Shade>
+void Esi::show_decayed(std::int64_t since_epoch_us, Image& image, Shade shade) const {
   std::span<const EsiPixel> state = pixels_;
   std::vector<EsiPixel> moved;
   if (since_epoch_us > kEpochSpan_us) {
@@ -170,12 +185,16 @@ void Esi::render_decayed(std::int64_t since_epoch_us, cv::Mat1b& grey) const {
     state = moved;
     since_epoch_us = 0;
   }
-  const Readout readout(options_);
   const auto t_us = static_cast<std::int32_t>(since_epoch_us);
-  const auto show = [&](const auto& loss) {
-    for (int y = 0; y < grey.rows; ++y) readout.show_decayed(row(state, y), t_us, loss, grey[y]);
+  const auto show_row = [&](std::span<const EsiPixel> pixels, const auto& loss, auto* shown) {
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      shown[x] = shade(pixels[x].e - pixels[x].e * loss(t_us - pixels[x].t_us));
+    }
   };
-  std::visit(show, loss_);
+  const auto show_rows = [&](const auto& loss) {
+    for (int y = 0; y < image.rows; ++y) show_row(row(state, y), loss, image[y]);
+  };
+  std::visit(show_rows, loss_);
 }
 
 std::span<const EsiPixel> Esi::row(std::span<const EsiPixel> pixels, int y) const {

@@ -38,18 +38,25 @@ class Esi final : public Reconstructor {
   /// Throws a usage Error as check() does, and an Error where memory doesn't suffice.
   Esi(const EsiOptions& options, SensorSize size);
 
-  void process(std::span<const Event> events) override;
+  void render_levels(std::int64_t t_us, cv::Mat1f& levels) override;
   void render(std::int64_t t_us, cv::Mat1b& grey) override;
 
   /// Row by row from the top.
   std::span<const EsiPixel> pixels() const { return pixels_; }
 
  private:
+  void take(std::span<const Event> events, std::span<const float> weights) override;
+  /// Takes events that are near the present epoch.
+  void integrate(std::span<const Event> events, std::span<const float> weights);
   /// How many of the events, from the first on, have times that count from the present epoch.
   std::size_t events_near_epoch(std::span<const Event> events) const;
   /// Counts the pixels' times from an epoch that is this much later.
   void move_epoch(std::int64_t by_us, std::span<EsiPixel> pixels) const;
-  void render_decayed(std::int64_t since_epoch_us, cv::Mat1b& grey) const;
+  /// Makes every pixel of the image shade(E), with E faded to t_us where the options say so.
+  template <class Image, class Shade>
+  void show(std::int64_t t_us, Image& image, Shade shade) const;
+  template <class Image, class Shade>
+  void show_decayed(std::int64_t since_epoch_us, Image& image, Shade shade) const;
   std::span<const EsiPixel> row(std::span<const EsiPixel> pixels, int y) const;
 
   EsiOptions options_;

@@ -33,7 +33,7 @@ std::unique_ptr<MethodConfig> configure() {
 
 constexpr std::array kMethods{
     Method{"esi", "event-based single integration: decay, add, clamp", "Dong et al. 2025, arXiv 2508.02238",
-           configure<EsiOptions, Esi>},
+           FrameUse::none, configure<EsiOptions, Esi>},
 };
 
 }  // namespace

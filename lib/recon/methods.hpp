@@ -20,11 +20,19 @@ class MethodConfig {
   virtual std::unique_ptr<Reconstructor> create(SensorSize size) const = 0;
 };
 
+/// What a method makes of the camera's own intensity frames.
+enum class FrameUse {
+  none,      ///< lives on events alone
+  optional,  ///< better with them
+  required,  ///< nothing without them
+};
+
 /// One row of the methods table.
 struct Method {
-  std::string_view name;                         ///< as --method takes it
-  std::string_view summary;                      ///< one line
-  std::string_view source;                       ///< paper
+  std::string_view name;     ///< as --method takes it
+  std::string_view summary;  ///< one line
+  std::string_view source;   ///< paper
+  FrameUse frames = FrameUse::none;
   std::unique_ptr<MethodConfig> (*configure)();  ///< with the method's defaults
 };
 

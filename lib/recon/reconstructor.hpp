@@ -16,13 +16,24 @@ class Reconstructor {
   virtual ~Reconstructor() = default;
 
   /// Takes events that are sorted by time, inside the sensor, and not before those of earlier calls.
-  virtual void process(std::span<const Event> events) = 0;
+  /// `weights` say how much each event counts, as a factor of what the method adds for it: one a piece, or
+  /// none at all, and every event counts 1.
+  void process(std::span<const Event> events, std::span<const float> weights = {}) { take(events, weights); }
 
   /// Takes an intensity frame at its exposure's end. Methods that live on events alone ignore it.
   virtual void observe(const IntensityFrame& /*frame*/) {}
 
-  /// The image at time t_us, after all events with t < t_us. `grey` is reallocated where it has another size.
-  virtual void render(std::int64_t t_us, cv::Mat1b& grey) = 0;
+  /// Grey levels at time t_us, after all events with t < t_us: 0 is shown black and 255 white, but they are
+  /// neither rounded nor clamped. `levels` is reallocated where it has another size.
+  virtual void render_levels(std::int64_t t_us, cv::Mat1f& levels) = 0;
+
+  /// The same as an image: levels rounded and clamped.
+  virtual void render(std::int64_t t_us, cv::Mat1b& grey);
+
+ private:
+  virtual void take(std::span<const Event> events, std::span<const float> weights) = 0;
+
+  cv::Mat1f levels_;
 };
 
 }  // namespace esi

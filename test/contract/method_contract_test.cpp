@@ -156,6 +156,42 @@ TEST_CASE("a recording without events gives flat images, and one with events doe
   });
 }
 
+TEST_CASE("grey levels are the image before rounding") {
+  const std::vector<Event> events = scene(9);
+  for_each_variant([&](const MethodConfig& config) {
+    const auto reconstructor = config.create(kSize);
+    reconstructor->process(events);
+    const std::int64_t t_us = events.back().t_us + 1;
+    cv::Mat1b grey;
+    cv::Mat1f levels;
+    reconstructor->render(t_us, grey);
+    reconstructor->render_levels(t_us, levels);
+    REQUIRE(cv::checkRange(levels));
+    cv::Mat1b rounded;
+    levels.convertTo(rounded, CV_8U);
+    REQUIRE(cv::norm(grey, rounded, cv::NORM_INF) <= 1);  // halves may go either way
+    REQUIRE(cv::countNonZero(grey != rounded) <= 40);
+  });
+}
+
+TEST_CASE("events that each count 1 are events without weights, others are not") {
+  const std::vector<Event> events = scene(10);
+  const auto last_of = [&](const MethodConfig& config, std::span<const float> weights) {
+    const auto reconstructor = config.create(kSize);
+    reconstructor->process(events, weights);
+    cv::Mat1b grey;
+    reconstructor->render(events.back().t_us + 1, grey);
+    return grey;
+  };
+  for_each_variant([&](const MethodConfig& config) {
+    std::vector<float> weights(events.size(), 1.0F);
+    const cv::Mat1b expected = last_of(config, {});
+    REQUIRE(are_equal(last_of(config, weights), expected));
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = events[i].on ? 0.5F : 1.0F;
+    REQUIRE(cv::mean(last_of(config, weights))[0] < cv::mean(expected)[0]);
+  });
+}
+
 TEST_CASE("a shift in time shifts the frames") {
   const std::vector<Event> events = scene(4);
   for_each_variant([&](const MethodConfig& config) {

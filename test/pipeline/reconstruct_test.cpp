@@ -16,10 +16,6 @@ namespace {
 // Writes down what it is given: the image's pixel is the number of events so far.
 class Recorder final : public Reconstructor {
  public:
-  void process(std::span<const Event> events) override {
-    for (const Event& event : events) t_last_us = event.t_us;
-    count += static_cast<int>(events.size());
-  }
   void observe(const IntensityFrame& frame) override {
     observed.push_back({frame.exposure.end_us, count, rendered});
   }
@@ -29,6 +25,7 @@ class Recorder final : public Reconstructor {
     grey.create(1, 1);
     grey(0, 0) = static_cast<unsigned char>(count);
   }
+  void render_levels(std::int64_t /*t_us*/, cv::Mat1f& /*levels*/) override { FAIL("the loop wants images"); }
 
   struct Observation {
     std::int64_t t_us;
@@ -40,6 +37,13 @@ class Recorder final : public Reconstructor {
   int count = 0;
   int rendered = 0;
   std::vector<Observation> observed;
+
+ private:
+  void take(std::span<const Event> events, std::span<const float> weights) override {
+    CHECK(weights.empty());
+    for (const Event& event : events) t_last_us = event.t_us;
+    count += static_cast<int>(events.size());
+  }
 };
 
 class FrameList final : public FrameSink {
