@@ -41,11 +41,11 @@ Answer inquire(const std::filesystem::path& path, const ReconArguments& argument
 std::string methods_text() {
   std::string text;
   for (const Method& method : methods()) {
-    text += fmt::format("{:<10} {}\n{:<10} {}\n", method.name, method.summary, "", method.source);
+    text += fmt::format("{:<15} {}\n{:<15} {}\n", method.name, method.summary, "", method.source);
     const auto config = method.configure();
     for (const Option& option : config->options().options()) {
       const std::string value = fmt::format("{}={}", option.name(), option.text());
-      text += fmt::format("{:<12}{:<26} {} [{}]\n", "", value, option.help(), option.domain());
+      text += fmt::format("{:<17}{:<26} {} [{}]\n", "", value, option.help(), option.domain());
     }
   }
   return text;

@@ -94,24 +94,25 @@ std::optional<FrameCut> AtTimes::last(std::optional<std::int64_t> /*t_last_us*/)
   return FrameCut{0, times_us_[index_++]};
 }
 
-void AtPacketEnds::add_packet_ends(std::span<const std::int64_t> ends_us) {
-  // Packets whose events go back in time end where the one before them ended.
-  for (const std::int64_t end_us : ends_us) {
-    ends_us_.push_back(ends_us_.empty() ? end_us : std::max(end_us, ends_us_.back()));
-  }
+void AtEnds::add(std::int64_t end_us) {
+  earliest_us_ = std::max(end_us, earliest_us_);
+  ends_us_.push_back(earliest_us_);
 }
 
-std::optional<FrameCut> AtPacketEnds::next(std::span<const Event> events) {
-  if (index_ == ends_us_.size() || !reaches(events, ends_us_[index_])) return std::nullopt;
+std::optional<FrameCut> AtEnds::next(std::span<const Event> events) {
+  if (index_ == ends_us_.size() || !reaches(events, ends_us_[index_])) {
+    if (!events.empty()) earliest_us_ = std::max(earliest_us_, events.back().t_us + 1);
+    return std::nullopt;
+  }
   const std::int64_t t_us = ends_us_[index_++];
   if (index_ == ends_us_.size()) {  // keeps the list short
-    ends_us_.assign(1, t_us);
-    index_ = 1;
+    ends_us_.clear();
+    index_ = 0;
   }
   return FrameCut{count_before(events, t_us), t_us};
 }
 
-std::optional<FrameCut> AtPacketEnds::last(std::optional<std::int64_t> /*t_last_us*/) {
+std::optional<FrameCut> AtEnds::last(std::optional<std::int64_t> /*t_last_us*/) {
   if (index_ == ends_us_.size()) return std::nullopt;
   return FrameCut{0, ends_us_[index_++]};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -35,6 +36,9 @@ class FrameSchedule {
 
   /// The file's own packets end at these times (half-open). Only the per-packet schedule listens.
   virtual void add_packet_ends(std::span<const std::int64_t> /*ends_us*/) {}
+
+  /// The exposure of an intensity frame ends at this time. Only the schedule at intensity frames listens.
+  virtual void add_exposure_end(std::int64_t /*end_us*/) {}
 };
 
 /// Frame k is due at begin + (k+1) * period, computed from k, so that it can't drift.
@@ -84,16 +88,34 @@ class AtTimes final : public FrameSchedule {
   std::size_t index_ = 0;
 };
 
-/// A frame at the end of each of the file's own packets.
-class AtPacketEnds final : public FrameSchedule {
+/// Frames at times that become known as the recording is read.
+class AtEnds : public FrameSchedule {
  public:
   std::optional<FrameCut> next(std::span<const Event> events) override;
   std::optional<FrameCut> last(std::optional<std::int64_t> t_last_us) override;
-  void add_packet_ends(std::span<const std::int64_t> ends_us) override;
+
+ protected:
+  /// Ends that come too late, before an earlier one or an event already seen, are put behind those.
+  void add(std::int64_t end_us);
 
  private:
   std::vector<std::int64_t> ends_us_;
   std::size_t index_ = 0;
+  std::int64_t earliest_us_ = std::numeric_limits<std::int64_t>::min();  ///< of the next end
+};
+
+/// A frame at the end of each of the file's own packets.
+class AtPacketEnds final : public AtEnds {
+ public:
+  void add_packet_ends(std::span<const std::int64_t> ends_us) override {
+    for (const std::int64_t end_us : ends_us) add(end_us);
+  }
+};
+
+/// A frame at the end of each intensity frame's exposure.
+class AtIntensityFrames final : public AtEnds {
+ public:
+  void add_exposure_end(std::int64_t end_us) override { add(end_us); }
 };
 
 }  // namespace esi

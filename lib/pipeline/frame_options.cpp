@@ -24,6 +24,8 @@ void FrameOptions::declare(OptionTable& table) {
                 "a frame after every so many events instead (0: off); ties in time stay together");
   table.text("times", times, "frames at the times (s) of this file instead, one a line");
   table.toggle("packets", packets, "a frame at the end of each of the file's own packets instead");
+  table.toggle("at_frames", at_frames,
+               "a frame at the end of each of the recording's intensity frames instead");
   table.optional_real("start", start_s, {-kMaxSeconds, kMaxSeconds}, "s", "leave out what comes before");
   table.optional_real("end", end_s, {-kMaxSeconds, kMaxSeconds}, "s", "leave out what comes at or after it");
   table.optional_real("duration", duration_s, {0.0, kMaxSeconds}, "s", "the same, counted from the start");
@@ -34,8 +36,11 @@ void FrameOptions::declare(OptionTable& table) {
 }
 
 void FrameOptions::check() const {
-  const int rules = (every_events > 0 ? 1 : 0) + (times.empty() ? 0 : 1) + (packets ? 1 : 0);
-  if (rules > 1) throw usage_error("--every-events, --times and --packets exclude each other; give one");
+  const int rules =
+      (every_events > 0 ? 1 : 0) + (times.empty() ? 0 : 1) + (packets ? 1 : 0) + (at_frames ? 1 : 0);
+  if (rules > 1) {
+    throw usage_error("--every-events, --times, --packets and --at-frames exclude each other; give one");
+  }
   if (end_s && duration_s) throw usage_error("--end and --duration exclude each other; give one");
   if (interval().is_empty())
     throw usage_error("nothing lies between --start and --end: the end must be later");
@@ -54,7 +59,7 @@ std::optional<Region> FrameOptions::region() const {
 }
 
 double FrameOptions::video_fps() const {
-  const bool fixed_rate = every_events == 0 && times.empty() && !packets;
+  const bool fixed_rate = every_events == 0 && times.empty() && !packets && !at_frames;
   return fixed_rate ? fps : 100.0;
 }
 
@@ -62,6 +67,7 @@ std::unique_ptr<FrameSchedule> FrameOptions::make_schedule() const {
   if (every_events > 0) return std::make_unique<EveryNEvents>(every_events);
   if (!times.empty()) return std::make_unique<AtTimes>(read_times(times));
   if (packets) return std::make_unique<AtPacketEnds>();
+  if (at_frames) return std::make_unique<AtIntensityFrames>();
   return std::make_unique<FixedRate>(fps, start_s ? us_from_seconds(*start_s) : 0);
 }
 

@@ -18,6 +18,7 @@ struct FrameOptions {
   std::int64_t every_events = 0;  ///< 0: at the fixed rate
   std::string times;              ///< a file with one time (s) a line, or empty
   bool packets = false;
+  bool at_frames = false;
   std::optional<double> start_s;
   std::optional<double> end_s;
   std::optional<double> duration_s;

@@ -50,6 +50,32 @@ void refuse_missing_packets(const EventSource& source, const FrameOptions& frame
                                 name, source.header().layout));
 }
 
+void refuse_missing_frames(const EventSource& source, const ReconConfig& config, const std::string& name) {
+  if (source.header().has_intensity_frames) return;
+  const std::string& layout = source.header().layout;
+  if (config.method().frames == FrameUse::required) {
+    throw usage_error(
+        fmt::format("{}: method '{}' needs intensity frames, and this recording ({}) has none; "
+                    "use a method that lives on events alone (see --list-methods)",
+                    name, config.method().name, layout));
+  }
+  if (config.frames.at_frames) {
+    throw usage_error(
+        fmt::format("{}: this recording ({}) has no intensity frames; use --fps instead of "
+                    "--at-frames",
+                    name, layout));
+  }
+}
+
+// The file declares intensity frames, but that doesn't mean that there are any.
+void refuse_frameless(const Reconstruction& result, const ReconConfig& config, const std::string& name) {
+  const bool needs_them = config.method().frames == FrameUse::required || config.frames.at_frames;
+  if (result.intensity_frames > 0 || !needs_them) return;
+  throw Error(fmt::format(
+      "{}: there are no intensity frames in the part that was asked for, and {} needs them", name,
+      config.frames.at_frames ? "--at-frames" : fmt::format("method '{}'", config.method().name)));
+}
+
 void refuse_nothing(const Reconstruction& result, const EventSource& source, const std::string& name) {
   if (result.digest.events() > 0 || result.stopped) return;
   const std::string lost = source.losses().any() ? " (lost: " + source.losses().text() + ")" : "";
@@ -67,6 +93,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   CropSource source(open_recording(job.recording, config.read), config.frames.interval(),
                     config.frames.region());
   refuse_missing_packets(source, config.frames, name);
+  refuse_missing_frames(source, config, name);
 
   ReconReport report;
   report.size = require_sensor_size(source, name);
@@ -87,6 +114,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
     return report;
   }
   refuse_nothing(report.result, source, name);
+  refuse_frameless(report.result, config, name);
   sink->finish(to_text(RunManifest{job.tool,
                                    job.recording.string(),
                                    source.header(),

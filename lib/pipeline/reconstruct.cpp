@@ -38,6 +38,7 @@ class Loop {
   void take(Packet& packet) {
     result_.digest.add(packet.events);
     schedule_.add_packet_ends(packet.packet_ends_us);
+    for (const IntensityFrame& frame : packet.frames) schedule_.add_exposure_end(frame.exposure.end_us);
     std::move(packet.frames.begin(), packet.frames.end(), std::back_inserter(unobserved_));
     if (packet.events.empty()) return;
     const std::int64_t t_last_us = packet.events.back().t_us;

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "esi/core/error.hpp"
+#include "esi/recon/accumulator.hpp"
+#include "esi/recon/complementary.hpp"
+#include "esi/recon/edi.hpp"
 #include "esi/recon/esi.hpp"
 
 namespace esi {
@@ -34,6 +37,19 @@ std::unique_ptr<MethodConfig> configure() {
 constexpr std::array kMethods{
     Method{"esi", "event-based single integration: decay, add, clamp", "Dong et al. 2025, arXiv 2508.02238",
            FrameUse::none, configure<EsiOptions, Esi>},
+    Method{"accumulator", "leaky accumulator, the camera viewer's own",
+           "iniVation dv-processing, Accumulator", FrameUse::none,
+           configure<AccumulatorOptions, Accumulator>},
+    Method{"highpass", "high-pass filter: the complementary filter on events alone",
+           "Scheerlinck et al. 2018, ACCV", FrameUse::none, configure<HighPassOptions, HighPass>},
+    Method{"complementary", "complementary filter of events and intensity frames",
+           "Scheerlinck et al. 2018, ACCV", FrameUse::optional,
+           configure<ComplementaryOptions, Complementary>},
+    Method{"edi", "event-based double integral: the latest intensity frame, made sharp",
+           "Pan et al. 2019, CVPR; Lin et al. 2023", FrameUse::required, configure<EdiOptions, Edi>},
+    Method{"edi-propagated", "the same, carried on by events between intensity frames",
+           "Pan et al. 2019, CVPR; Lin et al. 2023", FrameUse::required,
+           configure<EdiOptions, EdiPropagated>},
 };
 
 }  // namespace

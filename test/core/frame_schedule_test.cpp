@@ -121,3 +121,26 @@ TEST_CASE("frames at the ends of packets follow what the file says") {
   schedule.add_packet_ends(std::vector<std::int64_t>{5, 9});
   CHECK(run(schedule, events_at({1, 4, 5, 7, 8}), 2) == std::vector<Shown>{{5, 2}, {9, 3}});
 }
+
+TEST_CASE(
+    "frames at intensity frames are due at their exposures' ends, and a late one as soon as it can be") {
+  AtIntensityFrames schedule;
+  schedule.add_packet_ends(std::vector<std::int64_t>{2});  // these are others' concern
+  schedule.add_exposure_end(5);
+  const std::vector<Event> first = events_at({1, 4, 5, 5});
+  const auto cut = schedule.next(first);
+  REQUIRE(cut);
+  CHECK(cut->events == 2);
+  CHECK(cut->t_us == 5);
+  CHECK_FALSE(schedule.next(std::span(first).subspan(2)));
+  schedule.add_exposure_end(3);  // events up to 5 have been taken
+  schedule.add_exposure_end(9);
+  const std::vector<Event> second = events_at({5, 7});
+  const auto late = schedule.next(second);
+  REQUIRE(late);
+  CHECK(late->events == 1);
+  CHECK(late->t_us == 6);
+  CHECK_FALSE(schedule.next(std::span(second).subspan(1)));
+  CHECK(schedule.last(7)->t_us == 9);
+  CHECK_FALSE(schedule.last(7));
+}

@@ -108,6 +108,29 @@ TEST_CASE("intensity frames reach the method at their exposures' ends, however t
   CHECK(method.observed == expected);
 }
 
+TEST_CASE("at intensity frames' own pace, each frame shows the events before the exposure's end, and it") {
+  const auto packet_size = GENERATE(1u, 7u, 10u, 1000u);
+  auto packets = packets_of(one_event_each_ms(35), packet_size);
+  packets.front().frames = {{{0, 4500}, cv::Mat1b(1, 1)}, {{5000, 10000}, cv::Mat1b(1, 1)}};
+  packets.back().frames = packet_size == 1000u ? packets.front().frames : std::vector<IntensityFrame>{};
+  packets.back().frames.push_back({{5000, 60000}, cv::Mat1b(1, 1)});  // behind the last event
+  const auto source = source_of(packets);
+  AtIntensityFrames schedule;
+  Recorder method;
+  FrameList sink;
+  const auto result = reconstruct(*source, schedule, method, sink, 100, "rec", {});
+  CHECK(result.intensity_frames == 3);
+  const std::vector<Recorder::Observation> expected = {{4500, 5, 0}, {10000, 10, 1}, {60000, 35, 2}};
+  CHECK(method.observed == expected);
+  REQUIRE(sink.frames.size() == 3);
+  const std::int64_t t_us[] = {4500, 10000, 60000};
+  const int shown[] = {5, 10, 35};
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(sink.frames[k].t_us == t_us[k]);
+    CHECK(sink.frames[k].grey(0, 0) == shown[k]);
+  }
+}
+
 TEST_CASE("a gap gives its frames, and one that would flood the disk is refused before") {
   const std::vector<Event> events = {{0, 1, 1, true}, {1000000, 1, 1, true}};
   FixedRate schedule(100, 0);
