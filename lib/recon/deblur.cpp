@@ -80,7 +80,6 @@ Deblur::Sharp Deblur::deblur(const cv::Mat1f& shares, Interval exposure) {
   sharp.log_sharp = sharp.log_blurred.clone();
   sharp.events_since = cv::Mat1f::zeros(shares.size());
   sharp.mean_events = cv::Mat1f::zeros(shares.size());
-  sharp.curvature = cv::Mat1f::zeros(shares.size());
   if (!exposure.is_empty()) integrate(exposure, sharp);
   const Interval after{exposure.end_us, std::numeric_limits<std::int64_t>::max()};
   for (const SignedEvent& event : recent_.within(after)) sharp.events_since(event.y, event.x) += event.p;
@@ -101,17 +100,16 @@ void Deblur::integrate(Interval exposure, Sharp& sharp) {
       const double mean = pixel.plain_integral / duration_us;
       const auto e_reference = static_cast<double>(pixel.e_reference);
       sharp.log_sharp(y, x) += static_cast<float>(c * e_reference - log_mean);
-      sharp.curvature(y, x) = static_cast<float>(log_mean - c * mean);
       sharp.mean_events(y, x) = static_cast<float>(mean - e_reference);
       sharp.events_since(y, x) = pixel.e - pixel.e_reference;
     }
   }
 }
 
-// log B2 - log B1 = c (E(f1 -> f2) + mean of E2 - mean of E1) + curvature2 - curvature1: but for the small
-// curvatures, c is a slope.
+// To first order in c, log B = log I(f) + c (mean of E(f -> t)), so log B2 - log B1 = c (E(f1 -> f2) + the
+// difference of the means).
 void Deblur::estimate_contrast(const Sharp& now) {
-  const cv::Mat1f log_change(now.log_blurred - now.curvature - sharp_.log_blurred + sharp_.curvature);
+  const cv::Mat1f log_change(now.log_blurred - sharp_.log_blurred);
   const cv::Mat1f event_change(sharp_.events_since - now.events_since + now.mean_events - sharp_.mean_events);
   const cv::Mat1b is_usable(now.is_usable & sharp_.is_usable);
   estimator_.add(log_change, event_change, is_usable);

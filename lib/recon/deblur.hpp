@@ -57,7 +57,6 @@ class Deblur {
     cv::Mat1f log_sharp;     ///< at the reference time f
     cv::Mat1f events_since;  ///< E(f -> now)
     cv::Mat1f mean_events;   ///< mean of E(f -> t) over the exposure
-    cv::Mat1f curvature;     ///< log of the mean of exp(c E), less c times the mean of E
   };
 
   Sharp deblur(const cv::Mat1f& shares, Interval exposure);

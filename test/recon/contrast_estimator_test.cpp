@@ -20,10 +20,11 @@ constexpr std::int64_t kExposure_us = 20000;
 /// Every pixel's log intensity is a sine of its own: a texture that moves.
 class Scene {
  public:
-  Scene(double contrast, unsigned seed) : random_(seed) {
+  Scene(double contrast, unsigned seed, double brightness = 0.0) : random_(seed) {
     for (int y = 0; y < kSize.height_px; ++y) {
       for (int x = 0; x < kSize.width_px; ++x) {
-        pixels_.push_back({uniform(-1.5, -1.1), uniform(0.1, 1.1), uniform(2.0, 9.0), uniform(0.0, 6.3)});
+        pixels_.push_back(
+            {brightness + uniform(-1.5, -1.1), uniform(0.1, 1.1), uniform(2.0, 9.0), uniform(0.0, 6.3)});
         add_events(x, y, contrast);
       }
     }
@@ -150,6 +151,30 @@ TEST_CASE("where frames and events don't belong together the first guess stays")
     edi.observe({exposure_of(k), other.exposed(exposure_of(k), 8)});
   }
   CHECK(edi.contrast() == Deblur::kFirstContrast);
+}
+
+TEST_CASE("under- and overexposed pixels don't change the estimate") {
+  const double brightness = GENERATE(1.3, -2.0);
+  const Scene scene(0.2, 11, brightness);
+  Edi edi({}, kSize);
+  play(scene, edi, 10, 8, [](int) {});
+  CHECK(edi.contrast() == Approx(0.2).epsilon(0.1));
+}
+
+TEST_CASE("a frame is made sharp with the estimate that it took part in") {
+  const Scene scene(0.1, 12);
+  Edi edi({}, kSize);
+  double before = 0.0;
+  play(scene, edi, 2, 8, [&](int k) {
+    if (k == 0) before = edi.contrast();
+  });
+  REQUIRE(edi.contrast() != before);
+  Edi knowing({.contrast = edi.contrast()}, kSize);
+  play(scene, knowing, 2, 8, [](int) {});
+  cv::Mat1f levels, expected;
+  edi.render_levels(0, levels);
+  knowing.render_levels(0, expected);
+  CHECK(cv::norm(levels, expected, cv::NORM_INF) == 0);
 }
 
 TEST_CASE("a given contrast threshold is kept") {

@@ -101,6 +101,20 @@ TEST_CASE("edi-propagated carries the sharp image on, edi doesn't") {
   CHECK(middle_level(propagated) == Approx(50.0).epsilon(1e-5));
 }
 
+TEST_CASE("a frame that is told late is carried on by the events since its exposure") {
+  const double up = std::exp(kContrast);
+  const Interval exposure = GENERATE(Interval{0, 10000}, Interval{10000, 10000});
+  Edi edi(with(ReferenceTime::end), kThree);
+  EdiPropagated propagated(with(ReferenceTime::end), kThree);
+  for (Reconstructor* method :
+       {static_cast<Reconstructor*>(&edi), static_cast<Reconstructor*>(&propagated)}) {
+    method->process(std::vector<Event>{at(-1, true), at(10000, true), at(12000, true)});
+    method->observe(flat_frame(exposure, 50));
+  }
+  CHECK(middle_level(edi) == Approx(50.0).epsilon(1e-5));
+  CHECK(middle_level(propagated) == Approx(50.0 * up * up).epsilon(1e-5));
+}
+
 TEST_CASE("a frame with one time only is sharp already") {
   const auto reference = GENERATE(ReferenceTime::start, ReferenceTime::middle, ReferenceTime::end);
   EdiPropagated edi(with(reference), kThree);
