@@ -1,29 +1,15 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "esi/core/phase.hpp"
+#include "esi/core/truth.hpp"
 
 namespace esi {
-
-/// The AprilTags that can be seen.
-struct TrueTags {
-  std::string family;
-  std::vector<int> ids;          ///< each once
-  std::map<int, double> size_m;  ///< edge of the black square; not every id need have one
-};
-
-/// Pinhole camera. Pixel centres are at whole numbers.
-struct CameraModel {
-  int width_px = 0, height_px = 0;
-  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
-  std::vector<double> distortion;         ///< OpenCV's k1, k2, p1, p2, k3, ...; may be empty
-};
 
 /// What is known of a recording from elsewhere. Only phases are always there. Times are on the recording's
 /// clock. Format: docs/formats.md, "Ground truth".

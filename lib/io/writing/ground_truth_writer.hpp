@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 
+#include "esi/core/truth.hpp"
 #include "esi/io/ground_truth.hpp"
 #include "esi/io/output/output_file.hpp"
 
@@ -12,14 +12,6 @@ namespace esi {
 /// Writes ground_truth.json; the truth's files stand in it relative to its folder. Throws a usage Error for
 /// what read_ground_truth() would refuse, and an Error where the file cannot be written.
 void write_ground_truth(const std::filesystem::path& path, const GroundTruth& truth);
-
-/// Where a tag's corners are at one time.
-struct TrueCorners {
-  std::int64_t t_us = 0;
-  int id = 0;
-  bool visible = false;
-  std::array<double, 8> xy_px{};  ///< x1, y1, ..., x4, y4; pixel centres at integers
-};
 
 /// corners.csv, row by row: t_s,id,visible,x1,y1,...,x4,y4. The file appears with finish().
 class CornersWriter {
@@ -33,13 +25,6 @@ class CornersWriter {
  private:
   std::string name_;
   OutputFile file_;
-};
-
-/// One line of a TUM track.
-struct TrackPose {
-  std::int64_t t_us = 0;
-  std::array<double, 3> position_m{};
-  std::array<double, 4> quaternion_xyzw{0, 0, 0, 1};
 };
 
 /// A track of poses, line by line: "t tx ty tz qx qy qz qw". The file appears with finish().
