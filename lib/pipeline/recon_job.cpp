@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "esi/core/error.hpp"
+#include "esi/io/output/output_file.hpp"
 #include "esi/io/output/run_manifest.hpp"
 #include "esi/pipeline/memory_limit.hpp"
 
@@ -17,6 +18,9 @@ using Clock = std::chrono::steady_clock;
 
 // State, image and encoder of the hungriest sensible method; only absurd sizes come near any limit.
 constexpr std::uint64_t kBytesPerPixel = 32;
+
+// Far more than any published network needs.
+constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
 
 std::string name_of(const ReconJob& job) {
   return job.recording == "-" ? "standard input" : job.recording.string();
@@ -100,7 +104,8 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   require_memory(kBytesPerPixel * static_cast<std::uint64_t>(report.size.width_px) *
                      static_cast<std::uint64_t>(report.size.height_px),
                  "a sensor of " + to_string(report.size));
-  const auto method = config.method_config().create(report.size);
+  const auto method = config.method_config().create(
+      report.size, [](const std::string& path) { return read_text_file(path, kMaxModelBytes); });
   const nlohmann::json effective = config.json();
   const std::string fingerprint = fingerprint_of(job, effective);
   const auto sink = open_frame_sink(job.output, config.sink,

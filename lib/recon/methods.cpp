@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "esi/core/error.hpp"
@@ -11,20 +12,28 @@
 #include "esi/recon/complementary.hpp"
 #include "esi/recon/edi.hpp"
 #include "esi/recon/esi.hpp"
+#include "esi/recon/network.hpp"
 
 namespace esi {
 namespace {
 
-/// Joins a method's Options (with `declare`) to its Reconstructor, made from (Options, SensorSize).
+/// Joins a method's Options (with `declare`) to its Reconstructor, made from (Options, SensorSize) or, where
+/// it needs files, (Options, SensorSize, FileReader).
 template <class Options, class Made>
 class Config final : public MethodConfig {
  public:
   OptionTable& options() override { return table_; }
-  std::unique_ptr<Reconstructor> create(SensorSize size) const override {
-    return std::make_unique<Made>(values_, size);
-  }
 
  private:
+  std::unique_ptr<Reconstructor> make(SensorSize size,
+                                      [[maybe_unused]] const FileReader& read_file) const override {
+    if constexpr (std::is_constructible_v<Made, const Options&, SensorSize, const FileReader&>) {
+      return std::make_unique<Made>(values_, size, read_file);
+    } else {
+      return std::make_unique<Made>(values_, size);
+    }
+  }
+
   Options values_;
   OptionTable table_ = table_of(values_);
 };
@@ -50,6 +59,10 @@ constexpr std::array kMethods{
     Method{"edi-propagated", "the same, carried on by events between intensity frames",
            "Pan et al. 2019, CVPR; Lin et al. 2023", FrameUse::required,
            configure<EdiOptions, EdiPropagated>},
+    Method{"network",
+           "a recurrent network over voxel grids: E2VID, FireNet, FireNet+ (bring your own weights)",
+           "Rebecq et al. 2019, arXiv 1906.07165; Scheerlinck et al. 2020, WACV", FrameUse::none,
+           configure<NetworkOptions, Network>},
 };
 
 }  // namespace

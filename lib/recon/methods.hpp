@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,13 +12,23 @@
 
 namespace esi {
 
+/// Gives the whole content of the file at a path, or throws an Error that names it. Methods that learnt from
+/// data need their model's file; lib/recon opens none, so whoever creates them lends this.
+using FileReader = std::function<std::string(const std::string& path)>;
+
 /// A method with values for its options: what --set and a config change, and what makes reconstructors.
 class MethodConfig {
  public:
   virtual ~MethodConfig() = default;
   virtual OptionTable& options() = 0;
-  /// Throws a usage Error on values that don't go together.
-  virtual std::unique_ptr<Reconstructor> create(SensorSize size) const = 0;
+  /// Throws a usage Error on values that don't go together, and what `read_file` throws for a file that an
+  /// option names.
+  std::unique_ptr<Reconstructor> create(SensorSize size, const FileReader& read_file = {}) const {
+    return make(size, read_file);
+  }
+
+ private:
+  virtual std::unique_ptr<Reconstructor> make(SensorSize size, const FileReader& read_file) const = 0;
 };
 
 /// What a method makes of the camera's own intensity frames.
