@@ -35,8 +35,8 @@ void NetworkOptions::declare(OptionTable& table) {
   table.text("model", model, "ONNX file of the network, made by scripts/export_onnx");
   table.choice("window", window, {"events", "time"},
                "what ends a window: its number of events, or the clock");
-  table.real("events_per_pixel", events_per_pixel, {0.001, 20.0}, "", "a window's events for each pixel");
-  table.integer("window_us", window_us, {100, 1'000'000}, "us", "how long a window of time lasts");
+  table.real("events_per_pixel", events_per_pixel, {0.01, 20.0}, "", "a window's events for each pixel");
+  table.integer("window_us", window_us, {1000, 1'000'000}, "us", "how long a window of time lasts");
   table.toggle("normalise", normalise, "give the voxel grid's entries mean 0 and deviation 1");
   table.integer("pad_multiple", pad_multiple, {1, 256}, "px", "the image is padded to multiples of this");
   table.real("unsharp", unsharp, {0.0, 10.0}, "", "how much the image is sharpened");

@@ -3,7 +3,6 @@
 import collections.abc
 import io
 import os
-import pickle
 import zipfile
 
 import numpy as np
@@ -17,17 +16,17 @@ LEGACY_PROTOCOL = 1001
 
 def read_weights(path):
     """The tensors of a checkpoint by name, as float32 arrays in native layout."""
-    try:
-        size = os.path.getsize(path)
-        with open(path, "rb") as file:
-            is_zip = file.read(4) == b"PK\x03\x04"
-            file.seek(0)
+    with open(path, "rb") as file:
+        size = os.fstat(file.fileno()).st_size
+        is_zip = file.read(4) == b"PK\x03\x04"
+        file.seek(0)
+        try:
             root, storages = _read_zip(file, size) if is_zip else _read_legacy(file, size)
-    except (EOFError, zipfile.BadZipFile) as error:
-        raise ExportError(f"the checkpoint is truncated or damaged ({_line(error)})") from error
-    except (pickle.UnpicklingError, UnicodeDecodeError, IndexError, ValueError, TypeError, KeyError) as error:
-        raise ExportError(f"not a checkpoint that torch.save wrote ({_line(error)})") from error
-    return _arrays(_state_dict(root), storages)
+            return _arrays(_state_dict(root), storages)
+        except ExportError:
+            raise
+        except Exception as error:  # a damaged stream makes Python's readers raise nearly anything
+            raise ExportError(f"the checkpoint is truncated or damaged ({_line(error)})") from error
 
 
 def _line(error):
@@ -44,7 +43,7 @@ def _read_legacy(file, size):
     and its values."""
     try:
         magic = _load(file)[0]
-    except (pickle.UnpicklingError, ExportError, EOFError, ValueError, UnicodeDecodeError, IndexError) as error:
+    except Exception as error:
         raise ExportError("not a checkpoint that torch.save wrote") from error
     if magic != LEGACY_MAGIC or _load(file)[0] != LEGACY_PROTOCOL:
         raise ExportError("not a checkpoint that torch.save wrote")
