@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 
 #include "esi/core/error.hpp"
 #include "esi/recon/voxel_grid.hpp"
@@ -14,6 +15,19 @@ EventWindows windows_of(const NetworkOptions& options, SensorSize size) {
   if (options.window == NetworkOptions::Window::time) return EventWindows::of_duration(options.window_us);
   const double pixels = static_cast<double>(size.width_px) * size.height_px;
   return EventWindows::of_count(static_cast<std::size_t>(std::max(options.events_per_pixel * pixels, 1.0)));
+}
+
+/// A grid of no events, so that a sensor too large for the memory is found before any event is read.
+cv::Mat grid_of(SensorSize size, int bins) {
+  cv::Mat grid;
+  try {
+    fill_voxel_grid({}, {}, bins, size, grid);
+  } catch (const cv::Exception&) {
+    throw Error(
+        fmt::format("network: a voxel grid of {} px in {} bins needs {:.1f} GB of memory, more than there is",
+                    to_string(size), bins, 4e-9 * size.width_px * size.height_px * bins));
+  }
+  return grid;
 }
 
 NetworkModel model_of(const NetworkOptions& options, SensorSize size, const Padding& padding,
@@ -49,7 +63,8 @@ Network::Network(const NetworkOptions& options, SensorSize size, const FileReade
       size_(size),
       padding_(Padding::to_multiple(size, static_cast<int>(options.pad_multiple))),
       windows_(windows_of(options, size)),
-      model_(model_of(options, size, padding_, read_file)) {}
+      model_(model_of(options, size, padding_, read_file)),
+      grid_(grid_of(size, model_.form().bins)) {}
 
 void Network::take(std::span<const Event> events, std::span<const float> weights) {
   windows_.add(events, weights, step());

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <mutex>
+#include <new>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -53,11 +55,13 @@ cv::dnn::Net load(std::string_view bytes) {
 void check_size(const NetworkForm& form, int height_px, int width_px) {
   const bool fits = (form.height_px == 0 || form.height_px == height_px) &&
                     (form.width_px == 0 || form.width_px == width_px);
-  const int multiple = form.size_multiple_px();
   if (!fits) {
-    throw Error(fmt::format("it takes {} x {} px only, and the padded image has {} x {}", form.width_px,
-                            form.height_px, width_px, height_px));
+    const auto side = [](int length_px) { return length_px == 0 ? "any" : std::to_string(length_px); };
+    throw Error(
+        fmt::format("it takes a width of {} and a height of {} px only, and the padded image has {} x {}",
+                    side(form.width_px), side(form.height_px), width_px, height_px));
   }
+  const int multiple = form.size_multiple_px();
   if (height_px % multiple != 0 || width_px % multiple != 0) {
     throw usage_error(fmt::format("it needs sides that are multiples of {} px: set pad_multiple", multiple));
   }
@@ -115,6 +119,8 @@ auto naming(const std::string& name, Action action) {
     throw Error(fmt::format("{}: {}", name, error.what()), error.kind());
   } catch (const cv::Exception& error) {
     throw Error(fmt::format("{}: OpenCV can't run it: {}", name, reason_of(error)));
+  } catch (const std::bad_alloc&) {
+    throw Error(fmt::format("{}: there is not enough memory to run it", name));
   }
 }
 

@@ -1,4 +1,5 @@
-// The method `network` through the tool: where its model comes from, and what a person reads when it is no good.
+// The method `network` through the tool: where its model comes from, and what a person reads when it is no
+// good.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -18,8 +19,9 @@ namespace {
 test::ToolResult run(const std::filesystem::path& output, const std::string& model,
                      const std::string& setting = "window=time") {
   const auto sample = test::source_dir() / "data-samples" / "moving_tag.aedat4";
-  return test::run_tool("esi-recon", {"--method", "network", "--set", "model=" + model, "--set", setting, "--quiet",
-                                      "--duration", "0.05", sample.string(), "-o", output.string()});
+  return test::run_tool("esi-recon",
+                        {"--method", "network", "--set", "model=" + model, "--set", setting, "--quiet",
+                         "--duration", "0.05", sample.string(), "-o", output.string()});
 }
 
 std::string tiny_network() { return (test::source_dir() / "test" / "models" / "tiny_network.onnx").string(); }
