@@ -47,6 +47,10 @@ TEST_CASE("network: a model that is missing or no good is one line, and nothing 
   const test::TempFolder folder;
   const auto text = folder.write("text.onnx", "hello");
   const auto cut = folder.write("cut.onnx", test::content_of(tiny_network()).substr(0, 3000));
+  std::string foreign = test::content_of(tiny_network());
+  foreign.replace(foreign.find("Sigmoid"), 7, "Sigmoie");  // a layer that OpenCV has never heard of, and logs
+  const auto layer = folder.write("layer.onnx", foreign);
+  check_refused(run(folder / "out", layer.string()), 1, "layer.onnx: OpenCV can't load it");
   check_refused(run(folder / "out", ""), 2, "scripts/export_onnx");
   check_refused(run(folder / "out", (folder / "absent.onnx").string()), 1, "absent.onnx");
   check_refused(run(folder / "out", folder.path().string()), 1, folder.path().string());

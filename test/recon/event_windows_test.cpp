@@ -98,6 +98,11 @@ TEST_CASE("windows and weights don't depend on how events are cut into calls") {
     EventWindows at_once = make();
     at_once.add(events, weights, whole.take());
     REQUIRE(whole.windows.size() > 20);
+    float index = 0.0F;
+    for (std::size_t k = 0; k < whole.windows.size(); ++k) {
+      REQUIRE(whole.weights[k].size() == whole.windows[k].size());
+      for (const float weight : whole.weights[k]) REQUIRE(weight == index++);
+    }
     std::mt19937 random(3);
     for (const unsigned largest : {1U, 5U, 200U}) {
       Collected cut;
