@@ -3,63 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <new>
 
 #include "esi/core/error.hpp"
+#include "esi/recon/esi_integrator.hpp"
 
 namespace esi {
 namespace {
 
-/// Times of events lie within 0..kEpochSpan_us after the epoch, those of pixels within +-kEpochSpan_us, so
-/// that differences fit in 31 bits. Longer than the longest support.
-constexpr std::int32_t kEpochSpan_us = (1 << 30) - 1;
-
-/// Pixels are fetched this many events ahead: early enough for the L3 cache, late enough to stay in L1.
-constexpr std::size_t kPrefetchEvents = 16;
-
 /// A narrower range of E would make grey levels of rounding errors.
 constexpr double kLeastRange = 0.001;
-
-/// E <- clamp(gamma(dt) E + c p), with everything the loop needs at hand.
-struct Integrator {
-  std::array<float, 2> c;  ///< what an OFF and an ON event add
-  float e_min;
-  float e_max;
-  std::uint32_t width_px;
-  std::int64_t epoch_us;
-
-  Integrator(const EsiOptions& options, SensorSize size, std::int64_t epoch)
-      : c{-static_cast<float>(options.c_off), static_cast<float>(options.c_on)},
-        e_min(static_cast<float>(options.e_min)),
-        e_max(static_cast<float>(options.e_max)),
-        width_px(static_cast<std::uint32_t>(size.width_px)),
-        epoch_us(epoch) {}
-
-  /// No branches: the polarity selects from a table, the clamp is a maximum and a minimum.
-  /// `weight(i)` is what event i counts.
-  template <class Loss, class Weight>
-  void add(std::span<const Event> events, const Weight& weight, const Loss& loss, EsiPixel* pixels) const {
-    const Integrator self = *this;  // a local, so that stores to pixels can't change it
-    const auto pixel_of = [&self, pixels](const Event& event) {
-      return pixels + (event.y * self.width_px + event.x);
-    };
-    const auto take = [&](std::size_t i) {
-      const Event& event = events[i];
-      EsiPixel& pixel = *pixel_of(event);
-      const auto t_us = static_cast<std::int32_t>(event.t_us - self.epoch_us);
-      const float e = pixel.e - pixel.e * loss(t_us - pixel.t_us) + self.c[event.on] * weight(i);
-      pixel = {std::min(std::max(e, self.e_min), self.e_max), t_us};
-    };
-    const std::size_t fetched = events.size() - std::min(kPrefetchEvents, events.size());
-    for (std::size_t i = 0; i < fetched; ++i) {
-      __builtin_prefetch(pixel_of(events[i + kPrefetchEvents]), 1);
-      take(i);
-    }
-    for (std::size_t i = fetched; i < events.size(); ++i) take(i);
-  }
-};
 
 /// I = 255 (E - e_min) / (e_max - e_min)
 struct Readout {
@@ -109,47 +63,38 @@ Esi::Esi(const EsiOptions& options, SensorSize size)
 }
 
 void Esi::take(std::span<const Event> events, std::span<const float> weights) {
-  if (events.empty()) return;
-  if (!has_events_) epoch_us_ = events.front().t_us;
-  has_events_ = true;
-  t_last_us_ = events.back().t_us;
-  while (true) {
-    const std::size_t near = events_near_epoch(events);
-    integrate(events.first(near), weights.first(std::min(near, weights.size())));
-    if (near == events.size()) return;
-    events = events.subspan(near);
-    if (!weights.empty()) weights = weights.subspan(near);
-    // At this event, whichever call brings it: how events are cut into calls leaves no trace.
-    move_epoch(events.front().t_us - epoch_us_, pixels_);
-    epoch_us_ = events.front().t_us;
+  if (weights.empty()) {
+    accumulate(events, EachCountsOne{});
+  } else {
+    accumulate(events, GivenWeights{weights.data()});
   }
 }
 
-void Esi::integrate(std::span<const Event> events, std::span<const float> weights) {
-  const Integrator integrator(options_, size_, epoch_us_);
-  const auto add = [&](const auto& loss) {
-    if (weights.empty()) {
-      integrator.add(
-          events, [](std::size_t) { return 1.0F; }, loss, pixels_.data());
-    } else {
-      integrator.add(
-          events, [&](std::size_t i) { return weights[i]; }, loss, pixels_.data());
-    }
-  };
-  std::visit(add, loss_);
+void Esi::begin_at(std::int64_t t_us) {
+  if (!has_events_) epoch_us_ = t_us;
+  has_events_ = true;
 }
 
 std::size_t Esi::events_near_epoch(std::span<const Event> events) const {
-  const auto is_near = [this](const Event& event) { return event.t_us - epoch_us_ <= kEpochSpan_us; };
+  const auto is_near = [this](const Event& event) {
+    return event.t_us - epoch_us_ <= EsiIntegrator::kEpochSpan_us;
+  };
   return static_cast<std::size_t>(std::partition_point(events.begin(), events.end(), is_near) -
                                   events.begin());
 }
 
+void Esi::take_epoch(std::int64_t epoch_us) {
+  move_epoch(epoch_us - epoch_us_, pixels_);
+  epoch_us_ = epoch_us;
+}
+
 void Esi::move_epoch(std::int64_t by_us, std::span<EsiPixel> pixels) const {
-  // Only a slow exponential has a memory longer than kEpochSpan_us, and can be applied in parts.
-  const bool is_longer = std::visit([](const auto& loss) { return loss(kEpochSpan_us); }, loss_) < 1.0F;
+  // Only a slow exponential has a memory longer than EsiIntegrator::kEpochSpan_us, and can be applied in
+  // parts.
+  const bool is_longer =
+      std::visit([](const auto& loss) { return loss(EsiIntegrator::kEpochSpan_us); }, loss_) < 1.0F;
   for (EsiPixel& pixel : pixels) {
-    const std::int64_t t_us = std::max<std::int64_t>(pixel.t_us - by_us, -kEpochSpan_us);
+    const std::int64_t t_us = std::max<std::int64_t>(pixel.t_us - by_us, -EsiIntegrator::kEpochSpan_us);
     const auto left_out_us = static_cast<double>(t_us - (pixel.t_us - by_us));
     if (is_longer) pixel.e = static_cast<float>(pixel.e * gamma(options_.decay, left_out_us));
     pixel.t_us = static_cast<std::int32_t>(t_us);
@@ -179,7 +124,7 @@ template <class Image, class Shade>
 void Esi::show_decayed(std::int64_t since_epoch_us, Image& image, Shade shade) const {
   std::span<const EsiPixel> state = pixels_;
   std::vector<EsiPixel> moved;
-  if (since_epoch_us > kEpochSpan_us) {
+  if (since_epoch_us > EsiIntegrator::kEpochSpan_us) {
     moved = pixels_;
     move_epoch(since_epoch_us, moved);
     state = moved;

@@ -41,15 +41,21 @@ class Esi final : public Reconstructor {
   void render_levels(std::int64_t t_us, cv::Mat1f& levels) override;
   void render(std::int64_t t_us, cv::Mat1b& grey) override;
 
+  /// The same as process(), with each event's weight from weight_of(pixel, on), asked once a piece and in
+  /// order. Defined in esi_integrator.hpp.
+  template <class Weight>
+  Weight accumulate(std::span<const Event> events, Weight weight_of);
+
   /// Row by row from the top.
   std::span<const EsiPixel> pixels() const { return pixels_; }
 
  private:
   void take(std::span<const Event> events, std::span<const float> weights) override;
-  /// Takes events that are near the present epoch.
-  void integrate(std::span<const Event> events, std::span<const float> weights);
+  /// The first event of all starts the clock.
+  void begin_at(std::int64_t t_us);
   /// How many of the events, from the first on, have times that count from the present epoch.
   std::size_t events_near_epoch(std::span<const Event> events) const;
+  void take_epoch(std::int64_t epoch_us);
   /// Counts the pixels' times from an epoch that is this much later.
   void move_epoch(std::int64_t by_us, std::span<EsiPixel> pixels) const;
   /// Makes every pixel of the image shade(E), with E faded to t_us where the options say so.

@@ -12,6 +12,7 @@
 #include "esi/recon/complementary.hpp"
 #include "esi/recon/edi.hpp"
 #include "esi/recon/esi.hpp"
+#include "esi/recon/esi_adaptive.hpp"
 #include "esi/recon/network.hpp"
 
 namespace esi {
@@ -46,6 +47,8 @@ std::unique_ptr<MethodConfig> configure() {
 constexpr std::array kMethods{
     Method{"esi", "event-based single integration: decay, add, clamp", "Dong et al. 2025, arXiv 2508.02238",
            FrameUse::none, configure<EsiOptions, Esi>},
+    Method{"esi-adaptive", "ESI with polarity balance, background filter and smoothing",
+           "ours; docs/methods.md", FrameUse::none, configure<EsiAdaptiveOptions, EsiAdaptive>},
     Method{"accumulator", "leaky accumulator, the camera viewer's own",
            "iniVation dv-processing, Accumulator", FrameUse::none,
            configure<AccumulatorOptions, Accumulator>},

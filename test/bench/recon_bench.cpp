@@ -3,63 +3,24 @@
 //   build/release/bin/bench_recon
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
+
 #include <functional>
-#include <random>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "bench/timing.hpp"
-#include "esi/core/packet.hpp"
 #include "esi/recon/esi.hpp"
-#include "support/shared_data.hpp"
+#include "recon_streams.hpp"
 
 namespace {
 
 using esi::Event;
 using esi::bench::median;
 using esi::bench::seconds;
+using esi::bench::seconds_for;
+using esi::bench::Stream;
 
 constexpr int kRounds = 31;
-
-struct Stream {
-  std::string name;
-  esi::SensorSize size;
-  std::vector<Event> events;
-};
-
-Stream tag_board(const std::filesystem::path& csv) {
-  Stream stream{"tag board", {346, 260}, {}};
-  std::ifstream file(csv);
-  std::string line;
-  std::getline(file, line);  // t,x,y,p
-  char comma = ',';
-  int on = 0;
-  for (Event e{}; file >> e.t_us >> comma >> e.x >> comma >> e.y >> comma >> on;) {
-    e.on = on == 1;
-    stream.events.push_back(e);
-  }
-  return stream;
-}
-
-/// 12 Mev/s from an upright edge that crosses the sensor in 0.1 s, spread over 24 columns.
-Stream moving_edge(esi::SensorSize size) {
-  Stream stream{"synthetic edge", size, {}};
-  std::mt19937 generator(1);
-  const auto random = [&generator] { return static_cast<unsigned>(generator()); };
-  const auto width = static_cast<unsigned>(size.width_px);
-  for (unsigned i = 0; i < 1'500'000; ++i) {
-    const unsigned t_us = i / 12;
-    const unsigned x = (t_us * width / 100'000 + random() % 24) % width;
-    const unsigned y = random() % static_cast<unsigned>(size.height_px);
-    stream.events.push_back(
-        {t_us, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), (random() & 1) != 0});
-  }
-  return stream;
-}
 
 /// What is left of the event loop without decay, polarity and clamp: E += c, store t.
 class Floor {
@@ -81,19 +42,6 @@ class Floor {
   std::uint32_t width_;
   std::vector<esi::EsiPixel> pixels_;
 };
-
-/// As in a pipeline: packets come one after another in the same buffer. Copying into it isn't timed.
-template <class Target>
-double seconds_for(const Stream& stream, Target& target) {
-  std::vector<Event> packet(esi::kPacketEvents);
-  double sum_s = 0.0;
-  for (std::size_t i = 0; i < stream.events.size(); i += packet.size()) {
-    const std::size_t count = std::min(packet.size(), stream.events.size() - i);
-    std::copy_n(stream.events.begin() + static_cast<std::ptrdiff_t>(i), count, packet.begin());
-    sum_s += seconds([&] { target.process(std::span(packet).first(count)); });
-  }
-  return sum_s;
-}
 
 esi::EsiOptions with(esi::Decay decay, double n, double alpha_hz, bool readout_decay) {
   esi::EsiOptions options;
@@ -164,9 +112,7 @@ void compare_readouts(const Stream& stream) {
 }  // namespace
 
 int main() {
-  const auto csv = esi::test::shared_data("tagboard/tagboard.txyp_us.csv");
-  const Stream small = csv ? tag_board(*csv) : moving_edge({346, 260});
-  const Stream large = moving_edge({1280, 720});
-  for (const Stream* stream : {&small, &large}) compare_kernels(*stream);
-  for (const Stream* stream : {&small, &large}) compare_readouts(*stream);
+  const std::vector<Stream> all = esi::bench::streams();
+  for (const Stream& stream : all) compare_kernels(stream);
+  for (const Stream& stream : all) compare_readouts(stream);
 }
