@@ -80,6 +80,7 @@ bool parse_recon_arguments(int argc, const char* const* argv, ReconArguments& ar
   for (const std::string& setting : settings) arguments.config.set(setting);
   flags.apply();
   arguments.config.frames.check();
+  arguments.config.steps.check();
   arguments.threads = checked_threads("--threads", threads);
   arguments.jobs = checked_threads("--jobs", jobs);
   for (const std::string& path : given) add_recordings(path, arguments.recordings);

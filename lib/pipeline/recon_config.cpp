@@ -37,6 +37,7 @@ void ReconConfig::set_json(const nlohmann::json& config, const std::string& name
     OptionTable all;
     read.declare(all);
     frames.declare(all);
+    steps.declare(all);
     sink.declare(all);
     for (const auto& [key, value] : config.items()) {
       if (key != "method" && key != "set") all.at(key).set_json(value);
@@ -50,6 +51,7 @@ nlohmann::json ReconConfig::json() const {
   ReconConfig copy_of_plain_options;  // tables bind to non-const fields
   copy_of_plain_options.read = read;
   copy_of_plain_options.frames = frames;
+  copy_of_plain_options.steps = steps;
   copy_of_plain_options.sink = sink;
   nlohmann::json config = {{"method", method_->name}, {"set", method_config_->options().json()}};
   for (const Group& group : copy_of_plain_options.groups()) config.update(group.table.json());
@@ -57,7 +59,10 @@ nlohmann::json ReconConfig::json() const {
 }
 
 std::vector<ReconConfig::Group> ReconConfig::groups() {
-  return {{"Input", table_of(read)}, {"Frames", table_of(frames)}, {"Output", table_of(sink)}};
+  return {{"Input", table_of(read)},
+          {"Frames", table_of(frames)},
+          {"Steps", table_of(steps)},
+          {"Output", table_of(sink)}};
 }
 
 }  // namespace esi

@@ -9,6 +9,7 @@
 #include "esi/io/output/frame_sink.hpp"
 #include "esi/io/read_options.hpp"
 #include "esi/pipeline/frame_options.hpp"
+#include "esi/pipeline/step_config.hpp"
 #include "esi/recon/methods.hpp"
 
 namespace esi {
@@ -21,6 +22,7 @@ class ReconConfig {
 
   ReadOptions read;
   FrameOptions frames;
+  StepConfig steps;
   SinkOptions sink;
 
   const Method& method() const { return *method_; }

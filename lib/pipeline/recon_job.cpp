@@ -18,6 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 // State, image and encoder of the hungriest sensible method; only absurd sizes come near any limit.
 constexpr std::uint64_t kBytesPerPixel = 32;
+// Times and counts of the steps around it, their images, and where undistorted pixels come from.
+constexpr std::uint64_t kStepBytesPerPixel = 40;
 
 // Far more than any published network needs.
 constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
@@ -92,20 +94,25 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   const auto started = Clock::now();
   const std::string name = name_of(job);
   config.frames.check();
+  config.steps.check();
   refuse_same_file(job);
   const auto schedule = config.frames.make_schedule();
-  CropSource source(open_recording(job.recording, config.read), config.frames.interval(),
-                    config.frames.region());
+  auto recording = open_recording(job.recording, config.read);
+  const auto sensor = recording->sensor_size();
+  CropSource source(std::move(recording), config.frames.interval(), config.frames.region());
   refuse_missing_packets(source, config.frames, name);
   refuse_missing_frames(source, config, name);
 
   ReconReport report;
   report.size = require_sensor_size(source, name);
-  require_memory(kBytesPerPixel * static_cast<std::uint64_t>(report.size.width_px) *
+  require_memory((kBytesPerPixel + kStepBytesPerPixel) * static_cast<std::uint64_t>(report.size.width_px) *
                      static_cast<std::uint64_t>(report.size.height_px),
                  "a sensor of " + to_string(report.size));
-  const auto method = config.method_config().create(
-      report.size, [](const std::string& path) { return read_text_file(path, kMaxModelBytes); });
+  const StepSurroundings surroundings = surroundings_of(config.steps, job.recording, config.read,
+                                                        sensor.value_or(report.size), config.frames.region());
+  RemovedEvents removed;
+  const auto method =
+      with_steps(config.method_config().create(report.size, [](const std::string& path) { return read_text_file(path, kMaxModelBytes); }), config.steps.steps, surroundings, removed);
   const nlohmann::json effective = config.json();
   const std::string fingerprint = fingerprint_of(job, effective);
   const auto sink = open_frame_sink(job.output, config.sink,
@@ -129,6 +136,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
                                    report.losses,
                                    report.result.frames,
                                    report.result.intensity_frames,
+                                   steps_json(config.steps, surroundings, removed),
                                    effective,
                                    fingerprint,
                                    {job.threads, report.wall_s}}));

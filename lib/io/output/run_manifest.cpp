@@ -63,6 +63,7 @@ std::string to_text(const RunManifest& manifest) {
       {"events", events_json(manifest)},
       {"intensity_frames", manifest.intensity_frames},
       {"frames", manifest.frames},
+      {"steps", manifest.steps},
       {"config", manifest.config},
       {"fingerprint", manifest.fingerprint},
       {"run", to_json(manifest.run)},

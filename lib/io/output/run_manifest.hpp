@@ -21,6 +21,7 @@ struct RunManifest {
   Losses losses;
   std::int64_t frames = 0;
   std::int64_t intensity_frames = 0;
+  nlohmann::json steps;     ///< what the steps around the method found and removed; no losses
   nlohmann::json config;    ///< all effective parameters
   std::string fingerprint;  ///< of recording and parameters
 
