@@ -11,8 +11,6 @@
 namespace esi {
 namespace {
 
-/// The Gaussian's kernel reaches this many deviations: what lies beyond is 0.3 % of it.
-constexpr double kReach = 3.0;
 constexpr float kLeastSpread = 1.0F;  // grey levels
 
 }  // namespace
@@ -22,15 +20,16 @@ void SmoothingOptions::declare(OptionTable& table) {
   table.real("blur_px", blur_px, {0.0, 20.0}, "px", "deviation of a Gaussian over the grey levels; 0: none");
 }
 
+Smoothing::Smoothing(const SmoothingOptions& options) : median_(options.median) {
+  if (options.blur_px > 0.0) gaussian_.emplace(options.blur_px);
+}
+
 void Smoothing::apply(cv::Mat1f& levels) {
-  if (options_.median) {
+  if (median_) {
     cv::medianBlur(levels, medians_, 3);
     cv::swap(levels, medians_);
   }
-  if (options_.blur_px > 0.0) {
-    const int side = 2 * std::max(1, static_cast<int>(std::ceil(kReach * options_.blur_px))) + 1;
-    cv::GaussianBlur(levels, levels, {side, side}, options_.blur_px);
-  }
+  if (gaussian_) gaussian_->apply(levels);
 }
 
 void RangeOptions::declare(OptionTable& table) {
@@ -52,7 +51,8 @@ void RangeStretch::apply(cv::Mat1f& levels) {
   const float low = percentile(options_.low_percent);
   const float high = percentile(options_.high_percent);
   if (high - low < kLeastSpread) return;
-  levels = (levels - low) * (255.0F / (high - low));
+  const float scale = 255.0F / (high - low);
+  for (float& level : levels) level = (level - low) * scale;
 }
 
 float RangeStretch::percentile(double percent) {

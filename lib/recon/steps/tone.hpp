@@ -1,9 +1,11 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "esi/core/options.hpp"
+#include "esi/recon/steps/gaussian.hpp"
 
 // Steps after a method, on its grey levels before they are rounded.
 
@@ -21,12 +23,13 @@ struct SmoothingOptions {
 /// Outside the image the border goes on for the median, and is mirrored for the Gaussian.
 class Smoothing {
  public:
-  explicit Smoothing(const SmoothingOptions& options) : options_(options) {}
+  explicit Smoothing(const SmoothingOptions& options);
   void apply(cv::Mat1f& levels);
 
  private:
-  SmoothingOptions options_;
+  bool median_;
   cv::Mat1f medians_;
+  std::optional<Gaussian> gaussian_;
 };
 
 enum class Range {

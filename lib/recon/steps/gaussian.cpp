@@ -1,0 +1,67 @@
+#include "esi/recon/steps/gaussian.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/core.hpp>
+
+namespace esi {
+namespace {
+
+constexpr double kReach = 3.0;
+
+std::vector<float> half_kernel(double deviation_px, int reach_px) {
+  std::vector<double> half;
+  for (int i = 0; i <= reach_px; ++i) half.push_back(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
+  const double sum = 2.0 * std::accumulate(half.begin(), half.end(), 0.0) - half.front();
+  std::vector<float> weights;
+  for (const double w : half) weights.push_back(static_cast<float>(w / sum));
+  return weights;
+}
+
+/// gfedcb|abcdefgh|gfedcba, however small the image is.
+int mirrored(int i, int size) { return cv::borderInterpolate(i, size, cv::BORDER_REFLECT_101); }
+
+}  // namespace
+
+Gaussian::Gaussian(double deviation_px)
+    : reach_px_(std::max(1, static_cast<int>(std::ceil(kReach * deviation_px)))),
+      half_(half_kernel(deviation_px, reach_px_)) {}
+
+void Gaussian::apply(cv::Mat1f& image) {
+  blur_rows(image);
+  const int cols = image.cols;
+  for (int y = 0; y < image.rows; ++y) {
+    float* const out = image[y];
+    const float* const middle = rows_[y];
+    for (int x = 0; x < cols; ++x) out[x] = half_[0] * middle[x];
+    for (int i = 1; i <= reach_px_; ++i) {
+      const float weight = half_[static_cast<std::size_t>(i)];
+      const float* const above = rows_[mirrored(y - i, image.rows)];
+      const float* const below = rows_[mirrored(y + i, image.rows)];
+      for (int x = 0; x < cols; ++x) out[x] += weight * (above[x] + below[x]);
+    }
+  }
+}
+
+void Gaussian::blur_rows(const cv::Mat1f& image) {
+  rows_.create(image.rows, image.cols);
+  const int cols = image.cols;
+  padded_.resize(static_cast<std::size_t>(cols) + 2 * static_cast<std::size_t>(reach_px_));
+  float* const line = padded_.data() + reach_px_;
+  for (int y = 0; y < image.rows; ++y) {
+    std::copy_n(image[y], cols, line);
+    for (int i = 1; i <= reach_px_; ++i) {
+      line[-i] = image(y, mirrored(-i, cols));
+      line[cols - 1 + i] = image(y, mirrored(cols - 1 + i, cols));
+    }
+    float* const out = rows_[y];
+    for (int x = 0; x < cols; ++x) out[x] = half_[0] * line[x];
+    for (int i = 1; i <= reach_px_; ++i) {
+      const float weight = half_[static_cast<std::size_t>(i)];
+      for (int x = 0; x < cols; ++x) out[x] += weight * (line[x - i] + line[x + i]);
+    }
+  }
+}
+
+}  // namespace esi

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace esi {
+
+/// A Gaussian over an image that is mirrored at its border pixels. In place of OpenCV's, whose last bit
+/// depends on a pixel's column and on the machine.
+class Gaussian {
+ public:
+  /// Cut off at `reach_px` = 3 deviations, rounded up: 0.3 % of it lie beyond.
+  explicit Gaussian(double deviation_px);
+
+  void apply(cv::Mat1f& image);
+
+ private:
+  void blur_rows(const cv::Mat1f& image);
+
+  int reach_px_;
+  std::vector<float> half_;  ///< the kernel's weights from its middle outwards
+  std::vector<float> padded_;
+  cv::Mat1f rows_;  ///< blurred along x
+};
+
+}  // namespace esi
