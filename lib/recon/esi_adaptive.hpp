@@ -16,7 +16,7 @@ namespace esi {
 /// ESI with blocks against noise; see docs/methods.md. Each gives what the step of the same name gives around
 /// plain ESI, but for less time.
 struct EsiAdaptiveOptions {
-  EsiOptions esi;
+  EsiOptions esi{.decay = {}, .e_min = -3.0, .e_max = 3.0};
   BalanceOptions balance{.balance = true};
   std::int64_t background_us = 0;  ///< 0: off
   SmoothingOptions smoothing{.median = false, .blur_px = 0.7};

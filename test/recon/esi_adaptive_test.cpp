@@ -17,6 +17,7 @@ constexpr SensorSize kSize{23, 17};
 /// Everything off.
 EsiAdaptiveOptions plain() {
   EsiAdaptiveOptions options;
+  options.esi = {};
   options.balance.balance = false;
   options.background_us = 0;
   options.smoothing = {};

@@ -90,7 +90,7 @@ TEST_CASE("images smaller than a kernel are smoothed too") {
 TEST_CASE("percentiles become black and white") {
   cv::Mat1f levels(1, 101);
   for (int x = 0; x <= 100; ++x) levels(0, (x * 37) % 101) = static_cast<float>(2 * x - 50);
-  RangeStretch stretch({.range = Range::percentile, .low_percent = 10.0, .high_percent = 60.0});
+  RangeStretch stretch({.range = Range::percentile, .low_percent = 9.6, .high_percent = 60.4});
   const cv::Mat1f before = levels.clone();
   stretch.apply(levels);
   for (int x = 0; x <= 100; ++x) {
