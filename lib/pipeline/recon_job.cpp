@@ -6,23 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "esi/core/error.hpp"
-#include "esi/io/output/output_file.hpp"
 #include "esi/io/output/run_manifest.hpp"
-#include "esi/pipeline/memory_limit.hpp"
+#include "esi/pipeline/ready_method.hpp"
 
 namespace esi {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-// State, image and encoder of the hungriest sensible method; only absurd sizes come near any limit.
-constexpr std::uint64_t kBytesPerPixel = 32;
-// Times and counts of the steps around it, their images, and where undistorted pixels come from.
-constexpr std::uint64_t kStepBytesPerPixel = 40;
-
-// Far more than any published network needs.
-constexpr std::size_t kMaxModelBytes = std::size_t{1} << 30;
 
 std::string name_of(const ReconJob& job) {
   return job.recording == "-" ? "standard input" : job.recording.string();
@@ -50,29 +41,6 @@ std::string fingerprint_of(const ReconJob& job, nlohmann::json config) {
   return fmt::format("{:016x}", hash);
 }
 
-void refuse_missing_packets(const EventSource& source, const FrameOptions& frames, const std::string& name) {
-  if (!frames.packets || source.header().has_packets) return;
-  throw usage_error(fmt::format("{}: the file ({}) is not made of packets; use --fps instead of --packets",
-                                name, source.header().layout));
-}
-
-void refuse_missing_frames(const EventSource& source, const ReconConfig& config, const std::string& name) {
-  if (source.header().has_intensity_frames) return;
-  const std::string& layout = source.header().layout;
-  if (config.method().frames == FrameUse::required) {
-    throw usage_error(
-        fmt::format("{}: method '{}' needs intensity frames, and this recording ({}) has none; "
-                    "use a method that lives on events alone (see --list-methods)",
-                    name, config.method().name, layout));
-  }
-  if (config.frames.at_frames) {
-    throw usage_error(
-        fmt::format("{}: this recording ({}) has no intensity frames; use --fps instead of "
-                    "--at-frames",
-                    name, layout));
-  }
-}
-
 // The file declares intensity frames, but that doesn't mean that there are any.
 void refuse_frameless(const Reconstruction& result, const ReconConfig& config, const std::string& name) {
   const bool needs_them = config.method().frames == FrameUse::required || config.frames.at_frames;
@@ -94,31 +62,23 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   const auto started = Clock::now();
   const std::string name = name_of(job);
   config.frames.check();
-  config.steps.check();
   refuse_same_file(job);
   const auto schedule = config.frames.make_schedule();
   auto recording = open_recording(job.recording, config.read);
   const auto sensor = recording->sensor_size();
   CropSource source(std::move(recording), config.frames.interval(), config.frames.region());
-  refuse_missing_packets(source, config.frames, name);
-  refuse_missing_frames(source, config, name);
 
   ReconReport report;
   report.size = require_sensor_size(source, name);
-  require_memory((kBytesPerPixel + kStepBytesPerPixel) * static_cast<std::uint64_t>(report.size.width_px) *
-                     static_cast<std::uint64_t>(report.size.height_px),
-                 "a sensor of " + to_string(report.size));
-  const StepSurroundings surroundings = surroundings_of(config.steps, job.recording, config.read,
-                                                        sensor.value_or(report.size), config.frames.region());
-  RemovedEvents removed;
-  const auto method =
-      with_steps(config.method_config().create(report.size, [](const std::string& path) { return read_text_file(path, kMaxModelBytes); }), config.steps.steps, surroundings, removed);
+  ReadyMethod method(config, {job.recording, name, config.read, &source.header(),
+                              sensor.value_or(report.size), config.frames.region()});
   const nlohmann::json effective = config.json();
   const std::string fingerprint = fingerprint_of(job, effective);
   const auto sink = open_frame_sink(job.output, config.sink,
                                     {report.size, config.frames.video_fps(), job.threads, fingerprint});
 
-  report.result = reconstruct(source, *schedule, *method, *sink, config.frames.max_frames, name, observer);
+  report.result =
+      reconstruct(source, *schedule, method.reconstructor(), *sink, config.frames.max_frames, name, observer);
   report.losses = source.losses();
   report.wall_s = std::chrono::duration<double>(Clock::now() - started).count();
   if (report.result.stopped) {
@@ -136,7 +96,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
                                    report.losses,
                                    report.result.frames,
                                    report.result.intensity_frames,
-                                   steps_json(config.steps, surroundings, removed),
+                                   method.steps_json(),
                                    effective,
                                    fingerprint,
                                    {job.threads, report.wall_s}}));
