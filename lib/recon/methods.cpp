@@ -77,6 +77,7 @@ const Method& method_named(std::string_view name) {
   const auto found = std::find_if(kMethods.begin(), kMethods.end(), is_named);
   if (found != kMethods.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(kMethods.size());
   for (const Method& method : kMethods) names.emplace_back(method.name);
   throw usage_error(
       fmt::format("method '{}' is not known; did you mean '{}'?", name, nearest_name(name, names)));

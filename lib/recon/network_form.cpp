@@ -18,6 +18,7 @@ constexpr int kMaxSide_px = 1 << 17;
 
 std::string described(const std::vector<OnnxValue>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const OnnxValue& value : values) {
     texts.push_back(fmt::format("{} ({})", value.name, fmt::join(value.shape, " x ")));
   }
