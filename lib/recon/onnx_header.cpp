@@ -1,8 +1,10 @@
 #include "esi/recon/onnx_header.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "esi/core/error.hpp"
@@ -13,9 +15,12 @@ namespace {
 /// Numbers of the fields in onnx.proto.
 enum Field : std::uint64_t {
   kModelGraph = 7,
+  kGraphNode = 1,
   kGraphInitializer = 5,
   kGraphInput = 11,
   kGraphOutput = 12,
+  kNodeInput = 1,
+  kNodeOutput = 2,
   kTensorName = 8,
   kValueName = 1,
   kValueType = 2,
@@ -114,24 +119,66 @@ std::string name_of_tensor(std::string_view message) {
   return name;
 }
 
+/// What is read and given along a graph, in its order.
+class Names {
+ public:
+  void add(const std::string& name) { given_.insert(name); }
+
+  /// OpenCV 4.6 crashes on a name that nothing gives.
+  void need(std::string_view name) const {
+    if (name.empty() || given_.count(std::string(name)) == 1)
+      return;  // empty: an optional input that is left out
+    throw Error(fmt::format("its graph needs '{}', which nothing in it gives", name));
+  }
+
+  void pass(std::string_view node) {
+    for_each_field(node, [&](std::uint64_t field, std::uint64_t, std::string_view content) {
+      if (field == kNodeInput) need(content);
+    });
+    for_each_field(node, [&](std::uint64_t field, std::uint64_t, std::string_view content) {
+      if (field == kNodeOutput) add(std::string(content));
+    });
+  }
+
+ private:
+  std::set<std::string> given_;
+};
+
+/// The parts of a graph, in their order.
+struct Graph {
+  std::vector<std::string_view> nodes;
+  std::set<std::string> weights;
+  OnnxHeader header;
+
+  explicit Graph(std::string_view message) {
+    for_each_field(message, [&](std::uint64_t field, std::uint64_t, std::string_view content) {
+      if (field == kGraphNode) nodes.push_back(content);
+      if (field == kGraphInitializer) weights.insert(name_of_tensor(content));
+      if (field == kGraphInput) header.inputs.push_back(value_of(content));
+      if (field == kGraphOutput) header.outputs.push_back(value_of(content));
+    });
+    std::erase_if(header.inputs, [&](const OnnxValue& input) { return weights.count(input.name) == 1; });
+  }
+
+  void check_names() const {
+    Names names;
+    for (const std::string& name : weights) names.add(name);
+    for (const OnnxValue& input : header.inputs) names.add(input.name);
+    for (const std::string_view node : nodes) names.pass(node);
+    for (const OnnxValue& output : header.outputs) names.need(output.name);
+  }
+};
+
 }  // namespace
 
 OnnxHeader read_onnx_header(std::string_view bytes) {
-  OnnxHeader header;
-  std::set<std::string> weights;
-  bool has_graph = false;
-  for_each_field(bytes, [&](std::uint64_t model_field, std::uint64_t, std::string_view graph) {
-    if (model_field != kModelGraph) return;
-    has_graph = true;
-    for_each_field(graph, [&](std::uint64_t field, std::uint64_t, std::string_view content) {
-      if (field == kGraphInput) header.inputs.push_back(value_of(content));
-      if (field == kGraphOutput) header.outputs.push_back(value_of(content));
-      if (field == kGraphInitializer) weights.insert(name_of_tensor(content));
-    });
+  std::optional<Graph> graph;
+  for_each_field(bytes, [&](std::uint64_t field, std::uint64_t, std::string_view content) {
+    if (field == kModelGraph) graph.emplace(content);
   });
-  if (!has_graph) refuse();
-  std::erase_if(header.inputs, [&](const OnnxValue& input) { return weights.count(input.name) == 1; });
-  return header;
+  if (!graph) refuse();
+  graph->check_names();
+  return graph->header;
 }
 
 }  // namespace esi

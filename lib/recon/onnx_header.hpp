@@ -19,7 +19,7 @@ struct OnnxHeader {
 
 /// Reads what OpenCV's importer keeps to itself: the names and shapes of inputs and outputs, out of the
 /// file's protocol buffer (onnx/onnx.proto). Throws an Error, without the file's name, where the bytes are no
-/// ONNX file or end too early.
+/// ONNX file or end too early, and where a node needs what no input, weight or earlier node gives.
 OnnxHeader read_onnx_header(std::string_view bytes);
 
 }  // namespace esi

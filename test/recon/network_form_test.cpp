@@ -55,6 +55,19 @@ TEST_CASE("bytes that are no ONNX file, or end too early, are refused") {
   CHECK_THROWS_AS(read_onnx_header(std::string(100, '\0')), Error);
 }
 
+TEST_CASE("a graph that needs what nothing gives is refused before OpenCV crashes on it") {
+  std::string dangling = tiny_network();
+  const std::size_t used = dangling.find("\x0A\x0Asigmoid_24");  // a node's input
+  REQUIRE(used != std::string::npos);
+  dangling[used + 3] = 'x';
+  CHECK_THROWS_WITH(read_onnx_header(dangling), Contains("needs 'sxgmoid_24', which nothing in it gives"));
+  std::string no_image = tiny_network();
+  const std::size_t given = no_image.find("\x12\x05image");  // a node's output
+  REQUIRE(given != std::string::npos);
+  no_image[given + 2] = 'x';
+  CHECK_THROWS_WITH(read_onnx_header(no_image), Contains("needs 'image'"));
+}
+
 TEST_CASE("weights that are listed among the inputs are none") {
   // graph (7) of: initializer (5) with name (8) "w"; input (11) with name (1) "w"; input with name "x".
   const std::string graph = std::string("\x2A\x03\x42\x01w", 5) + "\x5A\x03\x0A\x01w" + "\x5A\x03\x0A\x01x";
