@@ -86,6 +86,16 @@ struct NetworkModel::Impl {
       states.emplace_back(4, shape.data(), CV_32F, cv::Scalar(0));
       outputs.push_back(state.output);
     }
+    try_out(height_px, width_px);
+  }
+
+  /// A step on an empty grid that leaves no trace: what doesn't fit together is found before a recording is
+  /// read, and OpenCV's printing about it kept back.
+  void try_out(int height_px, int width_px) {
+    const QuietOpenCv quiet;
+    const std::array<int, 4> shape{1, form.bins, height_px, width_px};
+    step(cv::Mat(4, shape.data(), CV_32F, cv::Scalar(0)));
+    for (cv::Mat& state : states) state.setTo(0.0F);
   }
 
   void step(const cv::Mat& voxel) {

@@ -51,6 +51,11 @@ TEST_CASE("network: a model that is missing or no good is one line, and nothing 
   foreign.replace(foreign.find("Sigmoid"), 7, "Sigmoie");  // a layer that OpenCV has never heard of, and logs
   const auto layer = folder.write("layer.onnx", foreign);
   check_refused(run(folder / "out", layer.string()), 1, "layer.onnx: OpenCV can't load it");
+  // The voxel grid's shape (axis 2, its value 5) says 6 bins; the weights are made for 5.
+  std::string six_bins = test::content_of(tiny_network());
+  six_bins[six_bins.find("\x08\x05", six_bins.rfind("voxel")) + 1] = '\x06';
+  const auto bins = folder.write("bins.onnx", six_bins);
+  check_refused(run(folder / "out", bins.string()), 1, "bins.onnx: OpenCV can't");
   check_refused(run(folder / "out", ""), 2, "scripts/export_onnx");
   check_refused(run(folder / "out", (folder / "absent.onnx").string()), 1, "absent.onnx");
   check_refused(run(folder / "out", folder.path().string()), 1, folder.path().string());
