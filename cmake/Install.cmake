@@ -17,6 +17,10 @@ function(esi_install_headers layer)
   if(layer STREQUAL io)
     install(FILES ${source}/output/frame_sink.hpp ${source}/output/run_manifest.hpp DESTINATION ${target}/output)
   endif()
+  if(layer STREQUAL recon)
+    file(GLOB steps CONFIGURE_DEPENDS ${source}/steps/*.hpp)
+    install(FILES ${steps} DESTINATION ${target}/steps)
+  endif()
 endfunction()
 
 # A file that the tool itself prints, from the same option tables as --help.

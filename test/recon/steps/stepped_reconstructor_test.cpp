@@ -92,7 +92,7 @@ TEST_CASE("filters come in order, count what they remove, and later ones never s
   options.filters.background_us = 1000;
   StepSurroundings surroundings = plain();
   surroundings.corner = {10, 20};
-  surroundings.hot_pixels = {{10, 20}, {0, 0}, {300, 300}};  // one in view, at 0,0
+  surroundings.hot_pixels = {{10, 20}, {2, 1}, {300, 300}};  // one in view, at 0,0
   const Stepped stepped(options, surroundings);
   stepped.outer->process(std::vector<Event>{
       {0, 0, 0, true},     // hot
