@@ -11,11 +11,15 @@ namespace {
 constexpr double kReach = 3.0;
 
 std::vector<float> half_kernel(double deviation_px, int reach_px) {
-  std::vector<double> half;
-  for (int i = 0; i <= reach_px; ++i) half.push_back(std::exp(-0.5 * i * i / (deviation_px * deviation_px)));
+  std::vector<double> half(static_cast<std::size_t>(reach_px) + 1);
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    const double deviations = static_cast<double>(i) / deviation_px;
+    half[i] = std::exp(-0.5 * deviations * deviations);
+  }
   const double sum = 2.0 * std::accumulate(half.begin(), half.end(), 0.0) - half.front();
-  std::vector<float> weights;
-  for (const double w : half) weights.push_back(static_cast<float>(w / sum));
+  std::vector<float> weights(half.size());
+  std::transform(half.begin(), half.end(), weights.begin(),
+                 [sum](double weight) { return static_cast<float>(weight / sum); });
   return weights;
 }
 
