@@ -11,6 +11,7 @@ namespace esi {
 namespace {
 
 constexpr double kLargestTable_bytes = 512.0 * 1024 * 1024;
+constexpr std::int64_t kMostCorrectedBits = 2;  // what the AprilTag library says it finds
 
 }  // namespace
 
@@ -45,11 +46,18 @@ void DetectorOptions::check() const {
     throw usage_error(
         fmt::format("option quad_decimate: {} is neither 1.5 nor a whole number", quad_decimate));
   }
+  if (corrected_bits > kMostCorrectedBits) {
+    throw usage_error(
+        fmt::format("option corrected_bits: {} are too many, for {} they would take {:.1f} GB and let false "
+                    "tags in; take {} at most",
+                    corrected_bits, family, info.decode_table_bytes(static_cast<int>(corrected_bits)) / 1e9,
+                    kMostCorrectedBits));
+  }
   const double bytes = info.decode_table_bytes(static_cast<int>(corrected_bits));
   if (bytes <= kLargestTable_bytes) return;
   throw usage_error(fmt::format(
-      "option corrected_bits: correcting {} bits of {} would take {:.1f} GB of memory; {}", corrected_bits,
-      family, bytes / 1e9, corrected_bits > 2 ? "take 2 at most" : "take 1 at most"));
+      "option corrected_bits: correcting {} bits of {} would take {:.1f} GB of memory; take 1 at most",
+      corrected_bits, family, bytes / 1e9, corrected_bits > 2 ? "take 2 at most" : "take 1 at most"));
 }
 
 }  // namespace esi

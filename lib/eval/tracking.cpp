@@ -5,20 +5,6 @@
 namespace esi {
 namespace {
 
-/// The target's origin as a tag shows it. Nothing where the tag's pose is not to be trusted.
-std::optional<TargetMeasurement> measure(const Detection& detection, const TargetTag& tag,
-                                         const CameraModel& camera, const TrackingOptions& options) {
-  const auto found = estimate_tag_pose(detection.xy_px, tag.size_m, camera);
-  if (!found || !(found->reprojection_error_px <= options.max_reprojection_px)) return std::nullopt;
-  const cv::Vec3d origin = found->pose * (-tag.centre_m);
-  const auto seen = project(origin, {}, camera);
-  if (!seen) return std::nullopt;
-  // A side of s metres has f s / z pixels; hence the deviation of z = f s / side.
-  const double depth_m = found->pose.position_m[2];
-  const double depth_noise_m = depth_m * depth_m / (camera.fx * tag.size_m) * options.tracker.side_noise_px;
-  return TargetMeasurement{seen->uvd[0], seen->uvd[1], seen->uvd[2], depth_noise_m};
-}
-
 class TrackingLoop {
  public:
   TrackingLoop(const std::map<int, TargetTag>& tags, const CameraModel& camera, const PoseTrack& own_poses,
@@ -34,7 +20,8 @@ class TrackingLoop {
     for (const Detection& detection : frame.detections) {
       const auto tag = tags_.find(detection.id);
       if (tag == tags_.end()) continue;
-      const auto measurement = own_pose ? measure(detection, tag->second, camera_, options_) : std::nullopt;
+      const auto measurement =
+          own_pose ? measure_target(detection, tag->second, camera_, options_) : std::nullopt;
       if (!measurement) {
         ++run_.unusable;
         continue;
@@ -80,6 +67,19 @@ void TrackingOptions::declare(OptionTable& table) {
              "largest reprojection error of a tag's pose that is used");
   table.real("max_age", max_age_s, {0.0, 3600.0}, "s",
              "a track counts as available for so long after its last measurement");
+}
+
+std::optional<TargetMeasurement> measure_target(const Detection& detection, const TargetTag& tag,
+                                                const CameraModel& camera, const TrackingOptions& options) {
+  const auto found = estimate_tag_pose(detection.xy_px, tag.size_m, camera);
+  if (!found || !(found->reprojection_error_px <= options.max_reprojection_px)) return std::nullopt;
+  const cv::Vec3d origin = found->pose * (-tag.centre_m);
+  const auto seen = project(origin, {}, camera);
+  if (!seen) return std::nullopt;
+  // A side of s metres has f s / z pixels; hence the deviation of z = f s / side.
+  const double depth_m = found->pose.position_m[2];
+  const double depth_noise_m = depth_m * depth_m / (camera.fx * tag.size_m) * options.tracker.side_noise_px;
+  return TargetMeasurement{seen->uvd[0], seen->uvd[1], seen->uvd[2], depth_noise_m};
 }
 
 TrackingRun track_target(std::span<const FrameDetections> frames, const std::map<int, TargetTag>& tags,

@@ -24,6 +24,11 @@ struct TrackingOptions {
   void declare(OptionTable& table);
 };
 
+/// The target's origin as one of its tags shows it. Nothing where the tag's pose is not to be trusted.
+std::optional<TargetMeasurement> measure_target(const Detection& detection, const TargetTag& tag,
+                                                const CameraModel& camera,
+                                                const TrackingOptions& options = {});
+
 /// What the tracker believes at a frame's time, its detections included.
 struct TrackedFrame {
   std::int64_t t_us = 0;

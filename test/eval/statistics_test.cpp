@@ -76,6 +76,9 @@ TEST_CASE("The bootstrap is the same each time, follows its seed, and needs two 
   CHECK_FALSE(bootstrap_mean(values, 51));
   CHECK_FALSE(bootstrap_mean(std::vector{1.0}, 1));
   CHECK_FALSE(bootstrap_mean({}, 1));
+  const auto any = bootstrap_mean(std::vector{0.0, 1.0}, 1);  // blocks begin at the last value, too
+  CHECK(any->low == 0.0);
+  CHECK(any->high == 1.0);
   const auto certain = bootstrap_mean(std::vector<double>(50, 1.0), 5);
   CHECK(certain->low == 1.0);
   CHECK(certain->high == 1.0);

@@ -96,6 +96,22 @@ TEST_CASE("Several tags come by id, those of one id from left to right, in any r
   CHECK(TagDetector().detect(grey) == found);
 }
 
+TEST_CASE("Tags of one id come from left to right, wherever they lie") {
+  cv::Mat1b grey(400, 400, 200);
+  const std::vector<cv::Point> places{{280, 10}, {20, 280}, {150, 140}};
+  for (const cv::Point& at : places) {
+    tag_picture("tag36h11", 5, 8, {100, 100}, {5, 5}).grey.copyTo(grey(cv::Rect(at, cv::Size(100, 100))));
+  }
+  for (const bool mirrored : {false, true}) {
+    cv::Mat1b turned = grey;
+    if (mirrored) cv::rotate(grey, turned, cv::ROTATE_90_CLOCKWISE);
+    const std::vector<Detection> found = TagDetector().detect(turned);
+    REQUIRE(found.size() == 3);
+    CHECK(found[0].centre.x < found[1].centre.x);
+    CHECK(found[1].centre.x < found[2].centre.x);
+  }
+}
+
 TEST_CASE("An image of any size, of any option, is no crash") {
   TagDetector plain, full(with("quad_decimate=1")), coarse(with("quad_decimate=3")),
       narrow(with("quad_sigma=4"));
@@ -165,6 +181,9 @@ TEST_CASE("Options that can't be are refused with words") {
   CHECK_THROWS_WITH(with("family=tag36h12"), Contains("tag36h11") && Contains("tagStandard52h13"));
   CHECK_THROWS_WITH(with("corrected_bits=4"), Contains("0 to 3"));
   CHECK_THROWS_WITH(TagDetector(with("corrected_bits=3")), Contains("1.2 GB") && Contains("take 2 at most"));
+  DetectorOptions few = with("family=tag16h5");
+  few.corrected_bits = 3;
+  CHECK_THROWS_WITH(TagDetector(few), Contains("take 2 at most"));
   DetectorOptions large = with("family=tagStandard52h13");
   large.corrected_bits = 2;
   CHECK_THROWS_WITH(TagDetector(large), Contains("6.3 GB") && Contains("take 1 at most"));

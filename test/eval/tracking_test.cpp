@@ -67,6 +67,24 @@ TEST_CASE("A target is followed by its tags, each at its place on it") {
   CHECK(score.phases[2].longest_gap_us == 500'000);
 }
 
+TEST_CASE("A tag measures the target's origin, its depth the less surely the further away") {
+  const RigidPose target{rotation_about({0.3, -0.2, 0.4}), {0.2, 0.1, 2.0}};
+  const TargetTag tag{0.36, {-0.1, 0.02, 0}};
+  const RigidPose seen{target.rotation, target * tag.centre_m};
+  Detection detection{0, 0, 50, {}, tag_corners(seen, tag.size_m)};
+  TrackingOptions options;
+  options.tracker.side_noise_px = 1.5;
+  const auto found = measure_target(detection, tag, kCamera, options);
+  REQUIRE(found);
+  CHECK(found->u_px == Approx(172.5 + 206 * 0.1).margin(0.01));
+  CHECK(found->v_px == Approx(129.5 + 206 * 0.05).margin(0.01));
+  CHECK(found->depth_m == Approx(2.0).margin(1e-3));
+  const double z = seen.position_m[2], side_px = 206 * 0.36 / z;
+  CHECK(found->depth_noise_m == Approx(z * 1.5 / side_px).epsilon(1e-3));
+  detection.xy_px[0] += 30;
+  CHECK_FALSE(measure_target(detection, tag, kCamera, options));
+}
+
 TEST_CASE("A target that was lost is available for as long as allowed") {
   Chase chase;
   for (std::size_t k = 101; k < 180; ++k) chase.frames[k].detections.clear();
