@@ -11,8 +11,8 @@
 namespace esi {
 namespace {
 
-// State, image and encoder of the hungriest sensible method; only absurd sizes come near any limit.
-constexpr std::uint64_t kBytesPerPixel = 32;
+// Images and encoder; only absurd sizes come near any limit.
+constexpr std::uint64_t kFrameBytesPerPixel = 24;
 // Times and counts of the steps around it, their images, and where undistorted pixels come from.
 constexpr std::uint64_t kStepBytesPerPixel = 40;
 // Far more than any published network needs.
@@ -39,16 +39,18 @@ void refuse_missing_frames(const ReconConfig& config, const MethodContext& conte
   }
 }
 
-void refuse_too_large(SensorSize size) {
+void refuse_too_large(const ReconConfig& config, SensorSize size) {
   const auto pixels = static_cast<std::uint64_t>(size.width_px) * static_cast<std::uint64_t>(size.height_px);
-  require_memory((kBytesPerPixel + kStepBytesPerPixel) * pixels, "a sensor of " + to_string(size));
+  const std::uint64_t bytes_per_pixel = kFrameBytesPerPixel + config.method().state_bytes_per_pixel +
+                                        (config.steps.any() ? kStepBytesPerPixel : 0);
+  require_memory(bytes_per_pixel * pixels, "a sensor of " + to_string(size));
 }
 
 StepSurroundings checked_surroundings(const ReconConfig& config, const MethodContext& context) {
   config.steps.check();
   refuse_missing_packets(config, context);
   refuse_missing_frames(config, context);
-  refuse_too_large(context.size());
+  refuse_too_large(config, context.size());
   return surroundings_of(config.steps, context.recording, context.read, context.sensor, context.region);
 }
 

@@ -53,6 +53,12 @@ void StepConfig::declare(OptionTable& table) {
              "make frames of a lens without distortion, by this calibration (OpenCV YAML or XML, calib.txt)");
 }
 
+bool StepConfig::any() const {
+  return !steps.filters.hot_pixels.empty() || steps.filters.refractory_us > 0 ||
+         steps.filters.background_us > 0 || steps.balance.balance || steps.smoothing.any() ||
+         steps.range.range != Range::fixed || !undistort.empty();
+}
+
 void StepConfig::check() const { steps.range.check(); }
 
 StepSurroundings surroundings_of(const StepConfig& config, const std::filesystem::path& recording,

@@ -18,6 +18,7 @@ struct StepConfig {
   std::string undistort;  ///< a camera's calibration, or empty
 
   void declare(OptionTable& table);
+  bool any() const;
   /// Throws a usage Error on options that don't go together.
   void check() const;
 };

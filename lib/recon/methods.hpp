@@ -44,6 +44,7 @@ struct Method {
   std::string_view summary;  ///< one line
   std::string_view source;   ///< paper
   FrameUse frames = FrameUse::none;
+  std::uint64_t state_bytes_per_pixel = 8;       ///< about, for refusing what no memory holds
   std::unique_ptr<MethodConfig> (*configure)();  ///< with the method's defaults
 };
 

@@ -23,7 +23,7 @@ struct SimOptions {
   CameraOptions camera;
   SensorOptions sensor;
   IntensityFrameOptions frames;
-  StepOptions steps;
+  TimeStepOptions steps;
 
   void declare(OptionTable& table);
   void declare_own(OptionTable& table);  ///< the part of it that isn't in any of the structs

@@ -11,13 +11,13 @@ constexpr std::int64_t kShortestStep_us = 10;
 
 }  // namespace
 
-void StepOptions::declare(OptionTable& table) {
+void TimeStepOptions::declare(OptionTable& table) {
   table.integer("step_us", step_us, {kShortestStep_us, 1000}, "us", "longest step of the simulation");
   table.real("max_motion_px", max_motion_px, {0.01, 0.5}, "px",
              "longest way of the image in one step; steps get shorter where it moves faster");
 }
 
-StepPlanner::StepPlanner(const StepOptions& options, const Scenario& scenario)
+StepPlanner::StepPlanner(const TimeStepOptions& options, const Scenario& scenario)
     : options_(options), scenario_(&scenario), view_(scenario.view(0)) {}
 
 std::vector<PlannedStep> StepPlanner::plan(std::int64_t end_us) {

@@ -10,7 +10,7 @@
 namespace esi {
 
 /// How finely time is cut.
-struct StepOptions {
+struct TimeStepOptions {
   std::int64_t step_us = 1000;
   double max_motion_px = 0.5;
 
@@ -26,7 +26,7 @@ struct PlannedStep {
 /// Cuts time into steps, short enough that the image hardly moves within one.
 class StepPlanner {
  public:
-  StepPlanner(const StepOptions& options, const Scenario& scenario);
+  StepPlanner(const TimeStepOptions& options, const Scenario& scenario);
 
   /// What is seen where the next plan begins.
   const View& view() const { return view_; }
@@ -38,7 +38,7 @@ class StepPlanner {
   /// Halves the way until its parts are short enough.
   void go_to(std::int64_t end_us, View at_end, std::vector<PlannedStep>& steps);
 
-  StepOptions options_;
+  TimeStepOptions options_;
   const Scenario* scenario_;
   std::int64_t t_us_ = 0;
   View view_;

@@ -91,7 +91,7 @@ TEST_CASE(
   TrajectoryOptions options;
   options.flight.vibration_deg = 0.15;  // strong: 0.4 px a ms
   const Scenario flight({}, options, {}, 1);
-  StepOptions step;
+  TimeStepOptions step;
   step.max_motion_px = 0.3;
   StepPlanner planner(step, flight);
   View before = planner.view();
