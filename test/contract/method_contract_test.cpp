@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "contract/methods_under_test.hpp"
 #include "esi/core/error.hpp"
 #include "esi/pipeline/recon_config.hpp"
 #include "esi/recon/methods.hpp"
@@ -113,18 +114,6 @@ std::vector<cv::Mat1b> frames_of(Reconstructor& reconstructor, std::span<const E
   return frames;
 }
 
-/// A method with its defaults. One that needs weights gets a small network of ours (test/models/README.md).
-std::unique_ptr<MethodConfig> configured(const Method& method) {
-  auto config = method.configure();
-  Option* const model = config->options().find("model");
-  if (model != nullptr) model->set_text((test::source_dir() / "test/models/tiny_network.onnx").string());
-  return config;
-}
-
-std::unique_ptr<Reconstructor> created(const MethodConfig& config, SensorSize size = kSize) {
-  return config.create(size, [](const std::string& path) { return test::content_of(path); });
-}
-
 bool is_set(MethodConfig& config, std::string_view option, std::string_view value) {
   Option* const found = config.options().find(option);
   return found != nullptr && found->text() == value;
@@ -132,7 +121,7 @@ bool is_set(MethodConfig& config, std::string_view option, std::string_view valu
 
 std::vector<cv::Mat1b> frames_of(const MethodConfig& config, std::span<const Event> events,
                                  std::int64_t t0_us = 0) {
-  const auto reconstructor = created(config);
+  const auto reconstructor = test::created(config, kSize);
   return frames_of(*reconstructor, events, t0_us, [] { return std::size_t{1000000}; });
 }
 
@@ -142,7 +131,7 @@ std::int64_t last_frame_us(std::span<const Event> events) { return (events.back(
 /// A reconstructor that has seen all events and intensity frames up to that time.
 std::unique_ptr<Reconstructor> played(const MethodConfig& config, std::span<const Event> events,
                                       std::span<const float> weights = {}) {
-  auto reconstructor = created(config);
+  auto reconstructor = test::created(config, kSize);
   Player(*reconstructor, events, 0, weights).play_until(last_frame_us(events));
   return reconstructor;
 }
@@ -168,11 +157,11 @@ void for_each_method_variant(CheckBoth check_both) {
   for (const Method& method : methods()) {
     const auto check = [&](MethodConfig& config) { check_both(config, method); };
     INFO("method " << method.name);
-    check(*configured(method));
-    const auto defaults = configured(method);
+    check(*test::configured(method));
+    const auto defaults = test::configured(method);
     for (const Option& option : defaults->options().options()) {
       const auto value = option.json();
-      const auto variant = configured(method);
+      const auto variant = test::configured(method);
       if (option.is_switch()) {
         INFO(option.name() << " switched");
         variant->options().at(option.name()).set_json(!value.get<bool>());
@@ -216,13 +205,13 @@ TEST_CASE("frames don't depend on how the events are cut into calls") {
     REQUIRE(expected.size() > 5);
     std::mt19937 random(2);
     for (const unsigned largest : {1U, 3U, 500U}) {
-      const auto cut = created(config);
+      const auto cut = test::created(config, kSize);
       const auto frames = frames_of(
           *cut, events, 0, [&] { return std::size_t{1} + static_cast<std::size_t>(random() % largest); });
       REQUIRE(frames.size() == expected.size());
       for (std::size_t k = 0; k < frames.size(); ++k) REQUIRE(are_equal(frames[k], expected[k]));
     }
-    const auto with_empty_calls = created(config);
+    const auto with_empty_calls = test::created(config, kSize);
     with_empty_calls->process({});
     Player(*with_empty_calls, events, 0).play_until(last_frame_us(events));
     with_empty_calls->process({});
@@ -235,7 +224,7 @@ TEST_CASE("frames don't depend on how the events are cut into calls") {
 TEST_CASE("methods that live on events alone don't look at intensity frames, others do") {
   const std::vector<Event> events = scene(11);
   for_each_method_variant([&](const MethodConfig& config, const Method& method) {
-    const auto without = created(config);
+    const auto without = test::created(config, kSize);
     without->process(events);
     cv::Mat1b grey;
     without->render(last_frame_us(events), grey);
@@ -246,7 +235,7 @@ TEST_CASE("methods that live on events alone don't look at intensity frames, oth
 
 TEST_CASE("an intensity frame that isn't of the sensor's size is refused in words") {
   for_each_method_variant([&](const MethodConfig& config, const Method& method) {
-    const auto reconstructor = created(config);
+    const auto reconstructor = test::created(config, kSize);
     if (method.frames == FrameUse::none) return;
     REQUIRE_THROWS_WITH(reconstructor->observe({{0, 0}, cv::Mat1b(kSize.height_px, kSize.width_px - 1)}),
                         Contains(std::string(method.name)) && Contains("39x32") && Contains("40x32"));
@@ -257,8 +246,8 @@ TEST_CASE("intensity frames of 8 and of 16 bits mean the same") {
   const std::vector<Event> events = scene(12);
   for_each_method_variant([&](const MethodConfig& config, const Method& method) {
     if (method.frames == FrameUse::none) return;
-    const auto coarse = created(config);
-    const auto fine = created(config);
+    const auto coarse = test::created(config, kSize);
+    const auto fine = test::created(config, kSize);
     for (const auto& reconstructor : {coarse.get(), fine.get()}) reconstructor->process(events);
     const std::int64_t t_us = events.back().t_us + 1;
     const auto grey = [](int depth_factor) { return depth_factor * 77; };
@@ -274,7 +263,7 @@ TEST_CASE("intensity frames of 8 and of 16 bits mean the same") {
 TEST_CASE("a recording without events gives flat images, and one with events doesn't") {
   const std::vector<Event> events = scene(3);
   for_each_variant([&](const MethodConfig& config) {
-    const auto reconstructor = created(config);
+    const auto reconstructor = test::created(config, kSize);
     cv::Mat1b grey;
     for (const std::int64_t t_us : {std::int64_t{0}, std::int64_t{10000}, std::int64_t{1} << 50}) {
       reconstructor->render(t_us, grey);
@@ -406,7 +395,7 @@ TEST_CASE("events in the sensor's corners are taken") {
          {SensorSize{1, 1}, SensorSize{1, 9}, SensorSize{9, 1}, SensorSize{640, 480}}) {
       const auto right = static_cast<std::uint16_t>(size.width_px - 1);
       const auto bottom = static_cast<std::uint16_t>(size.height_px - 1);
-      const auto reconstructor = created(config, size);
+      const auto reconstructor = test::created(config, size);
       reconstructor->process(std::vector<Event>{
           {0, 0, 0, true}, {5, right, 0, false}, {5, 0, bottom, true}, {9, right, bottom, false}});
       cv::Mat1b grey;
@@ -419,7 +408,7 @@ TEST_CASE("events in the sensor's corners are taken") {
 TEST_CASE("an option takes its bounds and refuses what lies beyond them") {
   const std::vector<Event> events = scene(7);
   for (const Method& method : methods()) {
-    const auto defaults = configured(method);
+    const auto defaults = test::configured(method);
     for (const Option& option : defaults->options().options()) {
       double low = 0.0;
       double high = 0.0;
@@ -432,7 +421,7 @@ TEST_CASE("an option takes its bounds and refuses what lies beyond them") {
         CHECK_THROWS_AS(own.set_text(fmt::format("{}", wrong)), Error);
       }
       for (const double bound : {low, high}) {
-        const auto config = configured(method);
+        const auto config = test::configured(method);
         config->options().at(option.name()).set_text(fmt::format("{}", bound));
         try {
           const auto frames = frames_of(*config, events);
@@ -458,7 +447,7 @@ TEST_CASE("every config for reconstruction loads and works, and a method's own h
       defaults.choose_method(std::string(config.method().name));
       CHECK(config.json()["set"] == defaults.json()["set"]);  // when frames are due is the config's own
     }
-    const auto with_model = configured(config.method());
+    const auto with_model = test::configured(config.method());
     if (Option* const model = with_model->options().find("model")) config.set("model=" + model->text());
     CHECK_FALSE(is_flat(frames_of(config.method_config(), scene(8)).back()));
   }

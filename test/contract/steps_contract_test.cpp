@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "esi/recon/methods.hpp"
+#include "contract/methods_under_test.hpp"
 #include "esi/recon/steps/stepped_reconstructor.hpp"
 #include "support/random_events.hpp"
 
@@ -40,7 +40,7 @@ struct Run {
 Run run(const Method& method, std::vector<Event> events, std::int64_t shift_us, unsigned largest) {
   Run run;
   const auto reconstructor =
-      with_steps(method.configure()->create(kSize), all_steps(), surroundings(), run.removed);
+      with_steps(test::created(*test::configured(method), kSize), all_steps(), surroundings(), run.removed);
   for (Event& event : events) event.t_us += shift_us;
   std::mt19937 random(2);
   std::span<const Event> left = events;
@@ -101,7 +101,7 @@ TEST_CASE("with all steps, a recording without events gives the same image whene
     INFO(method.name);
     RemovedEvents removed;
     const auto reconstructor =
-        with_steps(method.configure()->create(kSize), all_steps(), surroundings(), removed);
+        with_steps(test::created(*test::configured(method), kSize), all_steps(), surroundings(), removed);
     cv::Mat1b first, later;
     reconstructor->process({});
     reconstructor->render(0, first);
