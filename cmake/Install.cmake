@@ -44,7 +44,7 @@ function(esi_install_tool tool)
     ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endfunction()
 
-foreach(tool IN ITEMS esi-recon esi-sim)
+foreach(tool IN ITEMS esi-recon esi-sim esi-eval)
   if(TARGET ${tool})
     esi_install_tool(${tool})
   endif()

@@ -1,0 +1,110 @@
+#include "eval_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+#include "cli.hpp"
+#include "esi/core/error.hpp"
+#include "esi/core/version.hpp"
+
+namespace esi::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Given {
+  std::vector<std::string> recordings, frames, truths, methods, config_files, requirements;
+  std::string output;
+};
+
+/// The truth that stands beside an input under its usual name.
+fs::path truth_beside(const EvalInput& input) {
+  const fs::path folder = input.is_frames ? input.path : input.path.parent_path();
+  const fs::path truth = folder / "ground_truth.json";
+  std::error_code absent;
+  if (fs::exists(truth, absent)) return truth;
+  throw usage_error(fmt::format("{}: say with -g where its ground truth is; there is no {} beside it",
+                                input.path.string(), truth.string()));
+}
+
+std::vector<EvalInput> inputs_of(const Given& given) {
+  std::vector<EvalInput> inputs;
+  for (const std::string& path : given.recordings) inputs.push_back({path, {}, false});
+  for (const std::string& path : given.frames) inputs.push_back({path, {}, true});
+  if (inputs.empty()) throw usage_error("give a recording, or with --frames a folder of frames");
+  const std::size_t truths = given.truths.size();
+  if (truths > 1 && truths != inputs.size()) {
+    throw usage_error(
+        fmt::format("{} ground truths for {} inputs: give one each, in their order, or one for all", truths,
+                    inputs.size()));
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i].path.empty() || inputs[i].path == "-") {
+      throw usage_error("esi-eval needs recordings that can be opened by name, not standard input");
+    }
+    inputs[i].truth = truths == 0 ? truth_beside(inputs[i]) : fs::path(given.truths[truths == 1 ? 0 : i]);
+  }
+  return inputs;
+}
+
+}  // namespace
+
+bool parse_eval_arguments(int argc, const char* const* argv, EvalArguments& arguments, int& exit_code) {
+  Given given;
+  std::int64_t threads = std::max(1U, std::thread::hardware_concurrency());
+
+  CLI::App app("what reconstructed images are worth, by the AprilTags found in them", "esi-eval");
+  app.set_version_flag("--version", fmt::format("esi-eval {}", version()));
+  app.add_option("RECORDING", given.recordings, "recordings, each read once for all methods");
+  app.add_option("--frames", given.frames,
+                 "folders of frames that any tool made, with images.txt or timestamps.txt")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  app.add_option(
+         "-g,--ground-truth", given.truths,
+         "ground truth of each input, in their order, or one for all; default: ground_truth.json beside it")
+      ->type_name("FILE");
+  app.add_option("-o,--output", given.output, "folder for the report")->type_name("DIR");
+  app.add_option("--method", given.methods, "a method or a config file of esi-recon, repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app.add_option("--config", given.config_files, "options from a JSON file")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--require", given.requirements,
+                 "PHASE>=RATE or METHOD:PHASE>=RATE, else exit with 4; repeatable")
+      ->type_name("RATE")
+      ->allow_extra_args(false);
+  TableFlags flags;
+  for (auto& group : arguments.config.groups()) flags.add(app, std::move(group.table), group.title);
+  const std::string running = "Running";
+  app.add_option("--threads", threads, "threads; they make no difference to the result")
+      ->type_name("N")
+      ->group(running);
+  app.add_flag("--force", arguments.job.force, "replace an older report in the output folder")
+      ->group(running);
+  app.add_flag("--quiet", arguments.quiet, "no progress and no summary")->group(running);
+  app.add_flag("--print-config", arguments.print_config, "print the merged options as a config, and end")
+      ->group(running);
+  if (!parse(app, argc, argv, exit_code)) return false;
+
+  for (const std::string& file : given.config_files) arguments.config.load(file);
+  for (const std::string& method : given.methods) arguments.config.add_method(method);
+  flags.apply();
+  arguments.config.check();
+  arguments.job.threads = checked_threads("--threads", threads);
+  for (const std::string& text : given.requirements) {
+    arguments.job.requirements.push_back(parse_requirement(text));
+  }
+  if (arguments.print_config) return true;
+  arguments.job.inputs = inputs_of(given);
+  if (given.output.empty()) throw usage_error("say with -o into which folder the report shall go");
+  arguments.job.output = given.output;
+  return true;
+}
+
+}  // namespace esi::cli

@@ -1,0 +1,54 @@
+#include "esi/pipeline/evaluation/loaded_truth.hpp"
+
+#include <fmt/format.h>
+
+#include "esi/core/error.hpp"
+#include "esi/eval/tag_families.hpp"
+#include "esi/io/picture_list.hpp"
+#include "esi/io/truth_tables.hpp"
+
+namespace esi {
+namespace {
+
+ExpectedTags expected_tags(const GroundTruth& truth, const EvalConfig& config, const std::string& name) {
+  if (const auto given = config.judging.id_list(); !given.empty()) {
+    require_tag_ids(config.detector.family, given);
+    return {given};
+  }
+  if (!truth.tags) return {};
+  if (truth.tags->family != config.detector.family) {
+    throw usage_error(
+        fmt::format("{}: its tags are of the family {}, the detector looks for {}; use --family {}", name,
+                    truth.tags->family, config.detector.family, truth.tags->family));
+  }
+  try {
+    require_tag_ids(truth.tags->family, truth.tags->ids);
+  } catch (const Error& error) {
+    throw usage_error(fmt::format("{}: {}", name, error.what()));
+  }
+  return {truth.tags->ids};
+}
+
+}  // namespace
+
+LoadedTruth load_truth(const std::filesystem::path& path, const EvalConfig& config) {
+  LoadedTruth loaded;
+  loaded.truth = read_ground_truth(path);
+  loaded.expected = expected_tags(loaded.truth, config, path.string());
+  if (!loaded.truth.corners.empty()) {
+    loaded.corner_rows = read_corners(loaded.truth.corners);
+    loaded.corners.emplace(loaded.corner_rows);
+  }
+  if (config.judging.tracking) {
+    if (!loaded.truth.camera_poses.empty()) loaded.camera_poses = read_track(loaded.truth.camera_poses);
+    if (!loaded.truth.target_poses.empty()) loaded.target_poses = read_track(loaded.truth.target_poses);
+  }
+  if (config.judging.quality && !loaded.truth.clean_frames.empty()) {
+    for (auto& picture : read_picture_list(loaded.truth.clean_frames)) {
+      loaded.clean_frames[picture.t_us] = std::move(picture.file);
+    }
+  }
+  return loaded;
+}
+
+}  // namespace esi
