@@ -18,7 +18,7 @@ namespace {
 
 test::ToolResult run(const std::filesystem::path& output, const std::string& model,
                      const std::string& setting = "window=time") {
-  const auto sample = test::source_dir() / "data-samples" / "moving_tag.aedat4";
+  const auto sample = test::source_dir() / "data-samples" / "flight-start/events.aedat4";
   return test::run_tool("esi-recon",
                         {"--method", "network", "--set", "model=" + model, "--set", setting, "--quiet",
                          "--duration", "0.05", sample.string(), "-o", output.string()});
