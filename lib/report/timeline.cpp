@@ -11,7 +11,9 @@
 namespace esi {
 namespace {
 
-constexpr double kNames_px = 170.0, kHead_px = 22.0, kRow_px = 18.0, kRowStep_px = 24.0, kFoot_px = 40.0;
+constexpr double kNames_px = 170.0, kRight_px = 20.0, kHead_px = 22.0, kRow_px = 18.0, kRowStep_px = 24.0,
+                 kFoot_px = 40.0;
+/// Narrowest.
 constexpr double kColumn_px = 2.0;
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
@@ -41,12 +43,14 @@ class Drawing {
  public:
   Drawing(const Axis& axis, std::size_t rows, double width_px)
       : axis_(axis),
-        width_px_(width_px - kNames_px),
+        width_px_(width_px - kNames_px - kRight_px),
         bottom_px_(kHead_px + kRowStep_px * static_cast<double>(rows)),
         svg_(width_px, bottom_px_ + kFoot_px) {}
 
   void draw_row(const TimelineRow& row, double y_px) {
-    const auto columns = static_cast<std::size_t>(width_px_ / kColumn_px);
+    // No narrower than frames are apart, so that even frames leave no gaps.
+    const auto columns =
+        std::clamp<std::size_t>(row.t_us.size(), 1, static_cast<std::size_t>(width_px_ / kColumn_px));
     std::vector<int> frames(columns, 0), hits(columns, 0);
     for (std::size_t i = 0; i < row.t_us.size(); ++i) {
       const double share = axis_.share_of(seconds(row.t_us[i]));
@@ -57,7 +61,7 @@ class Drawing {
       hits[column] += row.is_hit[i] ? 1 : 0;
     }
     svg_.text({kNames_px - 8.0, y_px + 13.0}, row.name, Anchor::end);
-    draw_runs(frames, hits, y_px);
+    draw_runs(frames, hits, y_px, width_px_ / static_cast<double>(columns));
   }
 
   void draw_phases(const std::vector<Phase>& phases) {
@@ -83,7 +87,8 @@ class Drawing {
   double x_of(double t_s) const { return kNames_px + width_px_ * axis_.share_of(t_s); }
 
   // Columns of one shade side by side become one rectangle.
-  void draw_runs(const std::vector<int>& frames, const std::vector<int>& hits, double y_px) {
+  void draw_runs(const std::vector<int>& frames, const std::vector<int>& hits, double y_px,
+                 double column_px) {
     const auto shade_of = [&](std::size_t i) {
       return frames[i] == 0 ? std::string() : shade(static_cast<double>(hits[i]) / frames[i]);
     };
@@ -92,8 +97,8 @@ class Drawing {
       std::size_t end = begin + 1;
       while (end < frames.size() && shade_of(end) == colour) ++end;
       if (!colour.empty()) {
-        svg_.rectangle({kNames_px + kColumn_px * static_cast<double>(begin), y_px},
-                       kColumn_px * static_cast<double>(end - begin), kRow_px, colour);
+        svg_.rectangle({kNames_px + column_px * static_cast<double>(begin), y_px},
+                       column_px * static_cast<double>(end - begin), kRow_px, colour);
       }
       begin = end;
     }

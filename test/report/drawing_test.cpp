@@ -90,7 +90,7 @@ TEST_CASE("a timeline shows hits, misses and nothing where there was no frame") 
     row.t_us.push_back(t_us);
     row.is_hit.push_back(t_us >= 2'500'000);
   }
-  const auto document = parsed(timeline(phases, {row}, 970.0));
+  const auto document = parsed(timeline(phases, {row}, 990.0));
   const auto runs = document.select_nodes("//rect");
   REQUIRE(runs.size() == 2);
   const auto of = [&](std::size_t i, const char* name) { return runs[i].node().attribute(name).as_double(); };

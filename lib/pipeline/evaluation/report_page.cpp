@@ -18,7 +18,7 @@
 namespace esi {
 namespace {
 
-constexpr std::size_t kPlotPoints = 400;
+constexpr std::size_t kMostPlotPoints = 400;
 
 Svg timeline_of(const InputRun& input, const InputResult& result) {
   std::vector<TimelineRow> rows;
@@ -33,7 +33,8 @@ Svg timeline_of(const InputRun& input, const InputResult& result) {
   return timeline(input.truth.truth.phases, rows);
 }
 
-/// Mean error of the relative position in each of kPlotPoints parts of the recording; NaN without a track.
+/// Mean error of the relative position in short parts of the recording, of two frames at least; NaN without a
+/// track.
 Series error_series(const InputRun& input, const MethodResult& method, const PoseTrack& camera,
                     const PoseTrack& target) {
   Series series;
@@ -41,17 +42,20 @@ Series error_series(const InputRun& input, const MethodResult& method, const Pos
   const auto& phases = input.truth.truth.phases;
   const double begin_s = static_cast<double>(phases.front().interval.begin_us) * 1e-6;
   const double end_s = static_cast<double>(phases.back().interval.end_us) * 1e-6;
-  std::vector<double> sums(kPlotPoints, 0.0), counts(kPlotPoints, 0.0);
+  const std::size_t parts =
+      std::clamp<std::size_t>(method.tracking_run->frames.size() / 2, 1, kMostPlotPoints);
+  std::vector<double> sums(parts, 0.0), counts(parts, 0.0);
   for (const TrackedFrame& frame : method.tracking_run->frames) {
     const auto from = camera.at(frame.t_us), to = target.at(frame.t_us);
     const double share = (static_cast<double>(frame.t_us) * 1e-6 - begin_s) / (end_s - begin_s);
     if (!frame.relative_m || !from || !to || share < 0.0 || share >= 1.0) continue;
-    const auto part = static_cast<std::size_t>(share * static_cast<double>(kPlotPoints));
+    const auto part = static_cast<std::size_t>(share * static_cast<double>(parts));
     sums[part] += cv::norm(*frame.relative_m - (to->position_m - from->position_m));
     counts[part] += 1.0;
   }
-  for (std::size_t i = 0; i < kPlotPoints; ++i) {
-    series.x.push_back(begin_s + (static_cast<double>(i) + 0.5) / kPlotPoints * (end_s - begin_s));
+  for (std::size_t i = 0; i < parts; ++i) {
+    series.x.push_back(begin_s +
+                       (static_cast<double>(i) + 0.5) / static_cast<double>(parts) * (end_s - begin_s));
     series.y.push_back(counts[i] > 0.0 ? sums[i] / counts[i] : NAN);
   }
   return series;
