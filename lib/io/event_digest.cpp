@@ -39,6 +39,11 @@ void EventDigest::add(std::span<const Event> events) {
   crc_ = static_cast<std::uint32_t>(crc32_z(crc_, records_.data(), records_.size()));
 }
 
+std::string crc32_of(std::string_view bytes) {
+  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+  return fmt::format("{:08x}", static_cast<std::uint32_t>(crc32_z(0, data, bytes.size())));
+}
+
 std::string EventDigest::crc32() const { return fmt::format("{:08x}", crc_); }
 
 }  // namespace esi

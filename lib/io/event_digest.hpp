@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "esi/core/event.hpp"
@@ -36,5 +37,8 @@ class EventDigest {
   std::uint32_t crc_ = 0;
   std::vector<unsigned char> records_;  ///< reused
 };
+
+/// CRC-32 of any bytes, 8 lower-case hex digits.
+std::string crc32_of(std::string_view bytes);
 
 }  // namespace esi

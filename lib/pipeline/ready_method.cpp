@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "esi/core/error.hpp"
+#include "esi/io/event_digest.hpp"
 #include "esi/io/output/output_file.hpp"
 #include "esi/pipeline/memory_limit.hpp"
 
@@ -59,11 +60,17 @@ StepSurroundings checked_surroundings(const ReconConfig& config, const MethodCon
 ReadyMethod::ReadyMethod(const ReconConfig& config, const MethodContext& context)
     : steps_(config.steps),
       surroundings_(checked_surroundings(config, context)),
-      removed_(std::make_unique<RemovedEvents>()) {
-  auto method = config.method_config().create(
-      context.size(), [](const std::string& path) { return read_text_file(path, kMaxModelBytes); });
+      removed_(std::make_unique<RemovedEvents>()),
+      files_(std::make_unique<nlohmann::json>(nlohmann::json::object())) {
+  auto method = config.method_config().create(context.size(), [this](const std::string& path) {
+    std::string content = read_text_file(path, kMaxModelBytes);
+    (*files_)[path] = crc32_of(content);
+    return content;
+  });
   reconstructor_ = with_steps(std::move(method), steps_.steps, surroundings_, *removed_);
 }
+
+ReadyMethod::~ReadyMethod() = default;
 
 nlohmann::json ReadyMethod::steps_json() const { return esi::steps_json(steps_, surroundings_, *removed_); }
 

@@ -28,16 +28,20 @@ class ReadyMethod {
   /// Throws a usage Error where the recording lacks what the method or its frames need, and Errors of the
   /// files that options name; an Error where memory would not suffice.
   ReadyMethod(const ReconConfig& config, const MethodContext& context);
+  ~ReadyMethod();
 
   Reconstructor& reconstructor() { return *reconstructor_; }
 
   /// What the steps took out so far: for run.json.
   nlohmann::json steps_json() const;
+  /// The files that the method read, with their CRC-32: {"model.onnx": "0123abcd"}.
+  const nlohmann::json& files_json() const { return *files_; }
 
  private:
   StepConfig steps_;
   StepSurroundings surroundings_;
   std::unique_ptr<RemovedEvents> removed_;
+  std::unique_ptr<nlohmann::json> files_;
   std::unique_ptr<Reconstructor> reconstructor_;
 };
 

@@ -29,7 +29,8 @@ void refuse_same_file(const ReconJob& job) {
 
 // FNV-1a, 64 bits: equal for the same recording (path and size) and options, else almost surely different.
 // What is to happen to an older run's output makes no difference to this run's.
-std::string fingerprint_of(const ReconJob& job, nlohmann::json config) {
+std::string fingerprint_of(const ReconJob& job, nlohmann::json config, const nlohmann::json& files) {
+  if (!files.empty()) config["files"] = files;
   config.erase("force");
   config.erase("resume");
   std::error_code no_file;
@@ -73,7 +74,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   ReadyMethod method(config, {job.recording, name, config.read, &source.header(),
                               sensor.value_or(report.size), config.frames.region()});
   const nlohmann::json effective = config.json();
-  const std::string fingerprint = fingerprint_of(job, effective);
+  const std::string fingerprint = fingerprint_of(job, effective, method.files_json());
   const auto sink = open_frame_sink(job.output, config.sink,
                                     {report.size, config.frames.video_fps(), job.threads, fingerprint});
 
@@ -97,6 +98,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
                                    report.result.frames,
                                    report.result.intensity_frames,
                                    method.steps_json(),
+                                   method.files_json(),
                                    effective,
                                    fingerprint,
                                    {job.threads, report.wall_s}}));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "support/run_tool.hpp"
@@ -39,7 +40,9 @@ TEST_CASE("network: a model that is given makes frames, and no noise") {
   const test::ToolResult result = run(folder / "out", tiny_network());
   CHECK(result.exit_code == 0);
   CHECK(result.err.empty());
-  CHECK(std::filesystem::exists(folder / "out" / "run.json"));
+  const auto run_json = nlohmann::json::parse(test::content_of(folder / "out" / "run.json"));
+  CHECK(run_json["files"].size() == 1);
+  CHECK(run_json["files"][tiny_network()].get<std::string>().size() == 8);
   CHECK(std::filesystem::exists(folder / "out" / "frame_0000000004.png"));
 }
 

@@ -64,6 +64,7 @@ std::string to_text(const RunManifest& manifest) {
       {"intensity_frames", manifest.intensity_frames},
       {"frames", manifest.frames},
       {"steps", manifest.steps},
+      {"files", manifest.files},
       {"config", manifest.config},
       {"fingerprint", manifest.fingerprint},
       {"run", to_json(manifest.run)},

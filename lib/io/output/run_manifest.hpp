@@ -22,6 +22,7 @@ struct RunManifest {
   std::int64_t frames = 0;
   std::int64_t intensity_frames = 0;
   nlohmann::json steps;     ///< what the steps around the method found and removed; no losses
+  nlohmann::json files;     ///< that the method read: path and CRC-32
   nlohmann::json config;    ///< all effective parameters
   std::string fingerprint;  ///< of recording and parameters
 
