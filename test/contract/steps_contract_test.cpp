@@ -110,3 +110,23 @@ TEST_CASE("with all steps, a recording without events gives the same image whene
     CHECK(cv::norm(first, later, cv::NORM_INF) == 0);
   }
 }
+
+// An undistorted image is black where the sensor didn't look, so that it has no mirror image.
+TEST_CASE("with all other steps, swapping all polarities mirrors the image of esi about neutral") {
+  const auto levels_of = [](const std::vector<Event>& events) {
+    RemovedEvents removed;
+    const StepSurroundings around{kSize, {}, {{12, 9}, {20, 20}}, {}};
+    const auto reconstructor =
+        with_steps(method_named("esi").configure()->create(kSize), all_steps(), around, removed);
+    reconstructor->process(events);
+    cv::Mat1f levels;
+    reconstructor->render_levels(events.back().t_us + 1, levels);
+    return levels;
+  };
+  std::vector<Event> events = test::random_events({8, 8, 24, 16}, 20000, 20, 3);
+  const cv::Mat1f image = levels_of(events);
+  for (Event& event : events) event.on = !event.on;
+  const cv::Mat1f mirrored = levels_of(events);
+  CHECK(cv::norm(image, mirrored, cv::NORM_INF) > 50.0);
+  CHECK(cv::norm(image + mirrored, cv::Mat1f(image.size(), 255.0F), cv::NORM_INF) <= 1.0);
+}
