@@ -32,7 +32,7 @@ inline std::vector<Event> shifted(std::vector<Event> events, std::int64_t t_us, 
 
 /// An intensity frame every 40 ms, exposed for 25 ms; each flat, so that a shift in space changes nothing.
 inline IntensityFrame intensity_frame(int k, std::int64_t t0_us) {
-  const std::int64_t end_us = t0_us + 30000 + k * 40000;
+  const std::int64_t end_us = t0_us + 30000 + std::int64_t{k} * 40000;
   return {{end_us - 25000, end_us},
           cv::Mat1b(kSize.height_px, kSize.width_px, static_cast<std::uint8_t>(90 + 10 * (k % 6)))};
 }
