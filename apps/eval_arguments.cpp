@@ -10,6 +10,7 @@
 #include "cli.hpp"
 #include "esi/core/error.hpp"
 #include "esi/core/version.hpp"
+#include "esi/io/output/frame_sink.hpp"
 
 namespace esi::cli {
 namespace {
@@ -103,6 +104,9 @@ bool parse_eval_arguments(int argc, const char* const* argv, EvalArguments& argu
   if (arguments.print_config) return true;
   arguments.job.inputs = inputs_of(given);
   if (given.output.empty()) throw usage_error("say with -o into which folder the report shall go");
+  if (given.output == "-" || !means_folder(given.output)) {
+    throw usage_error(fmt::format("-o {}: give a folder", given.output));
+  }
   arguments.job.output = given.output;
   return true;
 }

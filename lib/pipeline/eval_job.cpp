@@ -7,6 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 
 #include "esi/core/error.hpp"
 #include "esi/core/json_text.hpp"
@@ -36,7 +37,15 @@ bool has_no_folder(std::string_view /*name*/) { return false; }
 
 constexpr FolderContent kReportContent{"an evaluation", is_file_of_report, has_no_folder, false};
 
-void refuse_equal_labels(const EvalJob& job, const EvalConfig& config) {
+SinkOptions sink_options(const EvalJob& job) {
+  SinkOptions options;
+  options.force = job.force;
+  return options;
+}
+
+/// All that can be told before the work begins.
+void check_job(const EvalJob& job, const std::vector<InputRun>& inputs, const EvalConfig& config) {
+  config.check();
   const bool needs_methods = std::any_of(job.inputs.begin(), job.inputs.end(),
                                          [](const EvalInput& input) { return !input.is_frames; });
   if (needs_methods && config.methods.empty()) throw usage_error("say with --method what is to be evaluated");
@@ -46,6 +55,8 @@ void refuse_equal_labels(const EvalJob& job, const EvalConfig& config) {
       throw usage_error(fmt::format("{} is given twice", input.path.string()));
     }
   }
+  for (const Requirement& requirement : job.requirements) require_known(requirement, inputs, config);
+  require_usable_folder(job.output, sink_options(job), kReportContent);
 }
 
 nlohmann::json input_json(const InputRun& input) {
@@ -84,12 +95,6 @@ class ReportFolder {
   }
 
  private:
-  static SinkOptions sink_options(const EvalJob& job) {
-    SinkOptions options;
-    options.force = job.force;
-    return options;
-  }
-
   void put(const char* name, const std::string& text) { write_file(folder_.path() / name, text); }
 
   nlohmann::json report_json(const Evaluation& evaluation, const std::vector<InputResult>& results,
@@ -114,10 +119,12 @@ void summarise(const Evaluation& evaluation, const std::vector<InputResult>& res
     report.losses += fmt::format("{}{}: {}", report.losses.empty() ? "" : "; ", input.input.path.string(),
                                  input.losses.text());
   }
-  report.summary = to_markdown(rate_table(results.front()));
+  const bool is_pooled = results.size() > evaluation.inputs.size();
+  for (const InputResult& result : std::span(results).first(is_pooled ? 1 : results.size())) {
+    report.summary += (report.summary.empty() ? "" : "\n") + to_markdown(rate_table(result));
+  }
   for (const Requirement& requirement : job.requirements) {
-    for (std::string& sentence : missed(requirement, results.front()))
-      report.missed.push_back(std::move(sentence));
+    for (std::string& sentence : missed(requirement, results)) report.missed.push_back(std::move(sentence));
   }
 }
 
@@ -125,17 +132,16 @@ void summarise(const Evaluation& evaluation, const std::vector<InputResult>& res
 
 EvalReport run_job(const EvalJob& job, const EvalConfig& config, const Observer& observer) {
   const auto started = Clock::now();
-  refuse_equal_labels(job, config);
-  config.check();
-  for (const EvalInput& input : job.inputs) load_truth(input.truth, config);  // before the folder is touched
-  ReportFolder folder(job, config);
-  const Evaluation evaluation = evaluate(config, job.inputs, job.threads, observer);
+  std::vector<InputRun> inputs = load_inputs(config, job.inputs);
+  check_job(job, inputs, config);
+  const Evaluation evaluation = evaluate(config, std::move(inputs), job.threads, observer);
   EvalReport report;
   report.stopped = evaluation.stopped;
   if (report.stopped) return report;
   const std::vector<InputResult> results = results_of(evaluation, config);
   summarise(evaluation, results, job, report);
-  folder.write(evaluation, results, std::chrono::duration<double>(Clock::now() - started).count());
+  ReportFolder(job, config)
+      .write(evaluation, results, std::chrono::duration<double>(Clock::now() - started).count());
   return report;
 }
 

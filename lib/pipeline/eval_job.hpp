@@ -23,11 +23,12 @@ struct EvalReport {
   bool has_losses = false;
   std::string losses;               ///< in words
   std::vector<std::string> missed;  ///< requirements, a sentence each
-  std::string summary;              ///< the table of rates, for people
+  std::string summary;              ///< the tables of rates, for people
 };
 
 /// Evaluates, and fills a folder: report.json, table.csv, table.md, table.tex, tags.csv, frames.csv,
-/// detections.csv, cost.csv, tracks/ (TUM), report.html, and at last run.json, the mark that it is complete.
+/// detections.csv, cost.csv, track_*.tum and truth_*.tum, report.html, and at last run.json, the mark that it
+/// is complete. The folder is not touched before all is evaluated.
 /// The same input and options give the same bytes but for cost.csv, report.html's figure of costs and the
 /// blocks `run`. Throws as evaluate() does, and Errors of files that can't be written.
 EvalReport run_job(const EvalJob& job, const EvalConfig& config, const Observer& observer);

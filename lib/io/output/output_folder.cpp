@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -130,6 +132,14 @@ void require_usable(const fs::path& folder, const std::vector<std::string>& name
                   content.can_be_resumed ? ", or --resume to continue one that was interrupted" : ""));
 }
 
+/// The folder, or the nearest of those that lead to it that is there.
+fs::path nearest_there(const fs::path& folder) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder, error);
+  while (there.has_relative_path() && !fs::exists(there, error)) there = there.parent_path();
+  return there;
+}
+
 /// Looks before anything is written; makes the folder.
 fs::path usable_folder(fs::path folder, const SinkOptions& options, const std::string& fingerprint,
                        const FolderContent& content) {
@@ -165,6 +175,16 @@ std::optional<std::string> fingerprint_in(const fs::path& json_file) {
   const auto found = json.find("fingerprint");
   if (found == json.end() || !found->is_string()) return std::nullopt;
   return found->get<std::string>();
+}
+
+void require_usable_folder(const fs::path& path, const SinkOptions& options, const FolderContent& content) {
+  const fs::path there = nearest_there(path);
+  std::error_code error;
+  if (!fs::is_directory(there, error)) {
+    throw usage_error(there.string() + ": is a file, where a folder is to be written");
+  }
+  if (access(there.c_str(), W_OK | X_OK) != 0) throw system_error(there.string(), "cannot be written", errno);
+  if (fs::is_directory(path, error)) require_usable(path, names_in(path), options, "", content);
 }
 
 OutputFolder::OutputFolder(fs::path path, const SinkOptions& options, const std::string& fingerprint,

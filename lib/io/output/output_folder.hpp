@@ -28,6 +28,11 @@ bool is_picture_name(std::string_view name);
 /// What stands at "fingerprint" in a JSON file such as run.json; empty where there is none.
 std::optional<std::string> fingerprint_in(const std::filesystem::path& json_file);
 
+/// Throws what an OutputFolder of that path would throw, as far as can be told before: for a run that does
+/// all its work first. Leaves everything as it is.
+void require_usable_folder(const std::filesystem::path& path, const SinkOptions& options,
+                           const FolderContent& content);
+
 /// The folder that one run fills, held by one run at a time. While it is incomplete it holds
 /// .esi-incomplete with the run's fingerprint.
 class OutputFolder {

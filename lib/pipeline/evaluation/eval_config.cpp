@@ -67,6 +67,9 @@ std::vector<int> JudgingOptions::id_list() const {
     if (error != std::errc{} || id < 0 || !ends_well) {
       throw usage_error(fmt::format("option ids: '{}' is no list of numbers such as 0,1", ids));
     }
+    if (std::find(list.begin(), list.end(), id) != list.end()) {
+      throw usage_error(fmt::format("option ids: {} is there twice", id));
+    }
     list.push_back(id);
     at = stop == end ? end : stop + 1;
   }
@@ -112,6 +115,7 @@ void EvalConfig::set_json(const nlohmann::json& config, const std::string& name)
       }
       EvalMethod method;
       method.label = entry["label"].get<std::string>();
+      if (method.label.empty()) throw usage_error("methods: a label is empty");
       auto own = entry;
       own.erase("label");
       method.config.set_json(own, method.label);

@@ -18,6 +18,23 @@ namespace {
 /// Frames of one method that are in memory, for each thread.
 constexpr std::size_t kFramesPerThread = 3;
 
+/// The pictures of a folder within the part that was asked for.
+std::vector<ListedPicture> pictures_of(const EvalInput& input, Interval part) {
+  auto pictures = list_frames(input.path);
+  std::erase_if(pictures, [&](const ListedPicture& picture) { return !part.contains(picture.t_us); });
+  if (!pictures.empty()) return pictures;
+  throw Error(fmt::format("{}: there are no frames in the part that was asked for", input.path.string()));
+}
+
+/// Truth in the pixels of another camera would make everything a false detection.
+void require_size_of_camera(const InputRun& input, SensorSize size) {
+  const auto& camera = input.truth.truth.camera;
+  if (!camera || (camera->width_px == size.width_px && camera->height_px == size.height_px)) return;
+  throw usage_error(fmt::format("{}: it is {} px large, the camera of {} is {}; give the truth of this one",
+                                input.input.path.string(), to_string(size), input.input.truth.string(),
+                                to_string(SensorSize{camera->width_px, camera->height_px})));
+}
+
 /// One method's way through a recording.
 struct Lane {
   Lane(const EvalConfig& config, const EvalMethod& method, const MethodContext& context,
@@ -60,6 +77,7 @@ class Evaluator {
     const auto sensor = recording->sensor_size();
     CropSource source(std::move(recording), config_.frames.interval(), config_.frames.region());
     input.size = require_sensor_size(source, name);
+    require_size_of_camera(input, sensor.value_or(input.size));
     const MethodContext context{
         input.input.path, name, read, &source.header(), sensor.value_or(input.size), config_.frames.region()};
     std::vector<std::unique_ptr<Lane>> lanes;
@@ -111,16 +129,15 @@ class Evaluator {
   }
 
   bool run_frames(InputRun& input) {
-    const auto pictures = list_frames(input.input.path);
+    const auto pictures = pictures_of(input.input, config_.frames.interval());
     require_overlap(input.truth.truth, {pictures.front().t_us, pictures.back().t_us + 1},
                     input.input.path.string());
     JudgedFrames judged(config_, input.truth, pool_, detectors_, kFramesPerThread * (pool_.workers() + 1));
-    judged.run().label = std::filesystem::weakly_canonical(input.input.path).filename().string();
+    judged.run().label = frames_label(input.input);
     Frame frame;
     for (const ListedPicture& picture : pictures) {
       frame.t_us = picture.t_us;
-      frame.grey = read_picture(picture.file);
-      input.size = {frame.grey.cols, frame.grey.rows};
+      frame.grey = picture_of(picture, input);
       judged.write(frame);
       ++frame.index;
       const double fraction = static_cast<double>(frame.index) / static_cast<double>(pictures.size());
@@ -132,6 +149,19 @@ class Evaluator {
     return true;
   }
 
+  /// The first one says how large all are.
+  static cv::Mat1b picture_of(const ListedPicture& listed, InputRun& input) {
+    cv::Mat1b grey = read_picture(listed.file);
+    const SensorSize size{grey.cols, grey.rows};
+    if (input.size == SensorSize{}) {
+      require_size_of_camera(input, size);
+      input.size = size;
+    }
+    if (size == input.size) return grey;
+    throw usage_error(fmt::format("{}: it is {} px large, the first frame of its folder {}",
+                                  listed.file.string(), to_string(size), to_string(input.size)));
+  }
+
   const EvalConfig& config_;
   const Observer& observer_;
   WorkerPool pool_;
@@ -140,16 +170,29 @@ class Evaluator {
 
 }  // namespace
 
-Evaluation evaluate(const EvalConfig& config, const std::vector<EvalInput>& inputs, int threads,
+std::vector<InputRun> load_inputs(const EvalConfig& config, const std::vector<EvalInput>& inputs) {
+  std::vector<InputRun> runs;
+  for (const EvalInput& input : inputs) {
+    if (input.is_frames && config.frames.region()) {
+      throw usage_error(input.path.string() + ": frames are judged whole; option roi is for recordings");
+    }
+    InputRun& run = runs.emplace_back();
+    run.input = input;
+    run.truth = load_truth(input.truth, config);
+  }
+  return runs;
+}
+
+std::string frames_label(const EvalInput& input) {
+  return std::filesystem::weakly_canonical(input.path).filename().string();
+}
+
+Evaluation evaluate(const EvalConfig& config, std::vector<InputRun> inputs, int threads,
                     const Observer& observer) {
   config.check();
   cv::setNumThreads(1);  // frames are what goes on at the same time
   Evaluation evaluation;
-  for (const EvalInput& input : inputs) {
-    InputRun& run = evaluation.inputs.emplace_back();
-    run.input = input;
-    run.truth = load_truth(input.truth, config);
-  }
+  evaluation.inputs = std::move(inputs);
   Evaluator evaluator(config, threads, observer);
   for (InputRun& input : evaluation.inputs) {
     if (evaluator.run(input)) continue;

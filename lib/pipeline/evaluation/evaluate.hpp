@@ -35,10 +35,17 @@ struct Evaluation {
   bool stopped = false;  ///< by the observer
 };
 
+/// Each input with its truth, and nothing else yet. Throws a usage
+/// Error for a truth that can't be, or doesn't go with the options.
+std::vector<InputRun> load_inputs(const EvalConfig& config, const std::vector<EvalInput>& inputs);
+
+/// What a folder of frames is called among the methods: its name.
+std::string frames_label(const EvalInput& input);
+
 /// Reconstructs each recording with every method, decoding it once, and judges every frame; frames of folders
-/// are only judged, their method is called as the folder. Results don't depend on the number of threads.
-/// Throws a usage Error, before any work, for truths, methods and recordings that don't go together.
-Evaluation evaluate(const EvalConfig& config, const std::vector<EvalInput>& inputs, int threads,
+/// are only judged, those that --start and --end leave. Results don't depend on the number of threads.
+/// Throws a usage Error for truths, methods and recordings that don't go together.
+Evaluation evaluate(const EvalConfig& config, std::vector<InputRun> inputs, int threads,
                     const Observer& observer);
 
 }  // namespace esi

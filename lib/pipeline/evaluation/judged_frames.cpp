@@ -1,8 +1,11 @@
 #include "esi/pipeline/evaluation/judged_frames.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
+#include "esi/core/error.hpp"
 #include "esi/io/picture_list.hpp"
 #include "esi/pipeline/cpu_time.hpp"
 
@@ -21,6 +24,13 @@ std::optional<std::size_t> phase_of(const std::vector<Phase>& phases, std::int64
 
 std::int64_t from_middle_us(const Phase& phase, std::int64_t t_us) {
   return std::abs(t_us - (phase.interval.begin_us + phase.interval.duration_us() / 2));
+}
+
+ImageQuality quality_of(const cv::Mat1b& grey, const std::filesystem::path& clean) {
+  const cv::Mat1b reference = read_picture(clean);
+  if (reference.size() == grey.size()) return compare_images(grey, reference);
+  throw usage_error(fmt::format("{}: the clean frame is {}x{} px large, the frames are {}x{}; --no-quality",
+                                clean.string(), reference.cols, reference.rows, grey.cols, grey.rows));
 }
 
 }  // namespace
@@ -78,7 +88,7 @@ void JudgedFrames::judge(Pending& frame) {
   const std::filesystem::path* const clean = clean_frame_of(frame.found.t_us);
   if (clean == nullptr) return;
   frame.quality.t_us = frame.found.t_us;
-  frame.quality.quality = compare_images(frame.grey, read_picture(*clean));
+  frame.quality.quality = quality_of(frame.grey, *clean);
   frame.quality.sharpness = sharpness(frame.grey);
 }
 

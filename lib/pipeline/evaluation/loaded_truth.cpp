@@ -29,11 +29,21 @@ ExpectedTags expected_tags(const GroundTruth& truth, const EvalConfig& config, c
   return {truth.tags->ids};
 }
 
+/// Truth in pixels is in those of the whole sensor.
+void refuse_region(const GroundTruth& truth, const EvalConfig& config, const std::string& name) {
+  const bool has_pixels = !truth.corners.empty() || truth.camera || !truth.clean_frames.empty();
+  if (!has_pixels || !config.frames.region()) return;
+  throw usage_error(fmt::format(
+      "{}: it has corners, a camera or clean frames, which are those of the whole sensor; leave out --roi",
+      name));
+}
+
 }  // namespace
 
 LoadedTruth load_truth(const std::filesystem::path& path, const EvalConfig& config) {
   LoadedTruth loaded;
   loaded.truth = read_ground_truth(path);
+  refuse_region(loaded.truth, config, path.string());
   loaded.expected = expected_tags(loaded.truth, config, path.string());
   if (!loaded.truth.corners.empty()) {
     loaded.corner_rows = read_corners(loaded.truth.corners);

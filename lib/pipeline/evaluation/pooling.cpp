@@ -6,8 +6,10 @@
 namespace esi {
 namespace {
 
-/// Longer than any gap that is interpolated over.
+/// Between inputs; of the corners before and after an input's phases, less than half of it is kept, so that
+/// they stay apart. Longer than any gap that is interpolated over.
 constexpr std::int64_t kPause_us = 10'000'000;
+constexpr std::int64_t kMargin_us = 1'000'000;
 
 const MethodRun* run_of(const InputRun& input, const std::string& label) {
   const auto found = std::find_if(input.methods.begin(), input.methods.end(),
@@ -21,22 +23,25 @@ struct Timeline {
   std::vector<TrueCorners> corners;
   std::vector<FrameDetections> frames;
   bool has_corners = true;
+  std::int64_t frames_outside = 0;  ///< before an input's first phase or after its last
   std::int64_t end_us = 0;
 
   void append(const InputRun& input, const MethodRun& run) {
     const auto& own_phases = input.truth.truth.phases;
-    const std::int64_t by_us = end_us - own_phases.front().interval.begin_us;
+    const Interval whole{own_phases.front().interval.begin_us, own_phases.back().interval.end_us};
+    const std::int64_t by_us = end_us - whole.begin_us;
     for (Phase phase : own_phases) {
       phase.interval = {phase.interval.begin_us + by_us, phase.interval.end_us + by_us};
       phases.push_back(std::move(phase));
     }
     for (FrameDetections frame : run.frames) {
-      const bool is_inside = own_phases.front().interval.begin_us <= frame.t_us &&
-                             frame.t_us < own_phases.back().interval.end_us;
+      const bool is_inside = whole.contains(frame.t_us);
+      frames_outside += is_inside ? 0 : 1;
       frame.t_us += by_us;
       if (is_inside) frames.push_back(std::move(frame));
     }
     for (TrueCorners row : input.truth.corner_rows) {
+      if (row.t_us < whole.begin_us - kMargin_us || row.t_us >= whole.end_us + kMargin_us) continue;
       row.t_us += by_us;
       corners.push_back(row);
     }
@@ -57,6 +62,7 @@ Score pooled(const Timeline& timeline, const ExpectedTags& expected, const Score
   if (timeline.has_corners) track.emplace(timeline.corners);
   const CornerTrack* const corners = track ? &*track : nullptr;
   Score whole = score(timeline.phases, expected, corners, timeline.frames, options);
+  whole.frames_outside += timeline.frames_outside;
   std::vector<std::string> names;
   for (const Phase& phase : timeline.phases) {
     if (std::find(names.begin(), names.end(), phase.name) == names.end()) names.push_back(phase.name);

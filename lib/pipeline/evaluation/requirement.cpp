@@ -10,11 +10,34 @@
 namespace esi {
 namespace {
 
-const PhaseScore* phase_named(const Score& score, const std::string& name) {
-  const auto found = std::find_if(score.phases.begin(), score.phases.end(),
-                                  [&](const PhaseScore& phase) { return phase.name == name; });
-  if (found != score.phases.end()) return &*found;
-  return name == "total" ? &score.total : nullptr;
+/// Names of phases and methods may hold colons, too.
+bool is_meant(const Requirement& requirement, const std::string& method, const std::string& phase) {
+  return requirement.name == phase || requirement.name == method + ":" + phase;
+}
+
+bool has_it(const InputRun& input, const std::string& method, const Requirement& requirement) {
+  const auto& phases = input.truth.truth.phases;
+  return is_meant(requirement, method, "total") ||
+         std::any_of(phases.begin(), phases.end(),
+                     [&](const Phase& phase) { return is_meant(requirement, method, phase.name); });
+}
+
+std::vector<std::string> labels_of(const InputRun& input, const EvalConfig& config) {
+  if (input.input.is_frames) return {frames_label(input.input)};
+  std::vector<std::string> labels;
+  for (const EvalMethod& method : config.methods) labels.push_back(method.label);
+  return labels;
+}
+
+std::vector<PhaseScore> with_total(const Score& score) {
+  std::vector<PhaseScore> phases = score.phases;
+  phases.push_back(score.total);
+  return phases;
+}
+
+bool has_method(const InputResult& result, const std::string& label) {
+  return std::any_of(result.methods.begin(), result.methods.end(),
+                     [&](const MethodResult& method) { return method.label == label; });
 }
 
 }  // namespace
@@ -32,30 +55,37 @@ Requirement parse_requirement(std::string_view text) {
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.least);
   const bool is_rate = requirement.least >= 0.0 && requirement.least <= 1.0;
   if (error != std::errc{} || end != number.data() + number.size() || !is_rate) refuse();
-  std::string_view name = text.substr(0, sign);
-  if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
-    requirement.method = name.substr(0, colon);
-    name.remove_prefix(colon + 1);
-  }
-  requirement.phase = name;
+  requirement.name = text.substr(0, sign);
   return requirement;
 }
 
-std::vector<std::string> missed(const Requirement& requirement, const InputResult& result) {
-  std::vector<std::string> sentences;
-  bool is_known = false;
-  for (const MethodResult& method : result.methods) {
-    if (!requirement.method.empty() && method.label != requirement.method) continue;
-    const PhaseScore* const phase = phase_named(method.score, requirement.phase);
-    if (phase == nullptr) continue;
-    is_known = true;
-    const auto rate = phase->frames.value();
-    if (rate && *rate >= requirement.least) continue;
-    sentences.push_back(fmt::format("{} is missed by {}: {}", requirement.text, method.label,
-                                    rate ? fmt::format("{:.4f}", *rate) : "no frames"));
+void require_known(const Requirement& requirement, const std::vector<InputRun>& inputs,
+                   const EvalConfig& config) {
+  for (const InputRun& input : inputs) {
+    for (const std::string& label : labels_of(input, config)) {
+      if (has_it(input, label, requirement)) return;
+    }
   }
-  if (is_known) return sentences;
-  throw usage_error(fmt::format("--require {}: there is no such method or phase", requirement.text));
+  throw usage_error(fmt::format("--require {}: there is no such phase or method", requirement.text));
+}
+
+std::vector<std::string> missed(const Requirement& requirement, const std::vector<InputResult>& results) {
+  std::vector<std::string> sentences;
+  for (const InputResult& result : results) {
+    for (const MethodResult& method : result.methods) {
+      const InputResult& first = results.front();
+      if (first.is_pooled && !result.is_pooled && has_method(first, method.label)) continue;
+      for (const PhaseScore& phase : with_total(method.score)) {
+        if (!is_meant(requirement, method.label, phase.name)) continue;
+        const auto rate = phase.frames.value();
+        if (rate && *rate >= requirement.least) continue;
+        sentences.push_back(fmt::format("{} is missed by {} on {}: {}", requirement.text, method.label,
+                                        result.is_pooled ? "all inputs together" : result.name,
+                                        rate ? fmt::format("{:.4f}", *rate) : "no frames"));
+      }
+    }
+  }
+  return sentences;
 }
 
 }  // namespace esi

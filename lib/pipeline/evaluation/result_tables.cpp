@@ -103,10 +103,6 @@ std::string phase_at(const std::vector<Phase>& phases, std::int64_t t_us) {
   return {};
 }
 
-const InputResult& result_named(const std::vector<InputResult>& results, const std::string& name) {
-  return *std::find_if(results.begin(), results.end(), [&](const InputResult& r) { return r.name == name; });
-}
-
 }  // namespace
 
 Table rate_table(const InputResult& result) {
@@ -187,16 +183,17 @@ Table detection_rows(const Evaluation& evaluation, const std::string& family) {
 
 Table frame_rows(const Evaluation& evaluation, const std::vector<InputResult>& results) {
   Table table{"", {"input", "method", "frame", "t_us", "phase", "detected"}, {}};
-  for (const InputRun& input : evaluation.inputs) {
-    const std::string name = input.input.path.string();
-    const InputResult& result = result_named(results, name);
+  const std::size_t pooled = results.size() - evaluation.inputs.size();
+  for (std::size_t i = 0; i < evaluation.inputs.size(); ++i) {
+    const InputRun& input = evaluation.inputs[i];
+    const InputResult& result = results[pooled + i];
     for (std::size_t m = 0; m < input.methods.size(); ++m) {
       std::map<std::int64_t, bool> detected;
       for (const FrameScore& frame : result.methods[m].score.frames) detected[frame.t_us] = frame.is_detected;
       for (const FrameDetections& frame : input.methods[m].frames) {
         const auto found = detected.find(frame.t_us);
         const bool is_hit = found != detected.end() && found->second;
-        table.rows.push_back({name, input.methods[m].label, std::to_string(frame.index),
+        table.rows.push_back({result.name, input.methods[m].label, std::to_string(frame.index),
                               std::to_string(frame.t_us), phase_at(input.truth.truth.phases, frame.t_us),
                               is_hit ? "1" : "0"});
       }

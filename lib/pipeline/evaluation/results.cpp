@@ -47,7 +47,7 @@ void track(const InputRun& input, const MethodRun& run, const EvalConfig& config
 }
 
 InputResult result_of(const InputRun& input, const EvalConfig& config) {
-  InputResult result{input.input.path.string(), {}};
+  InputResult result{input.input.path.string(), {}, false};
   for (const MethodRun& run : input.methods) {
     MethodResult& method = result.methods.emplace_back();
     method.label = run.label;
@@ -66,6 +66,7 @@ std::vector<InputResult> results_of(const Evaluation& evaluation, const EvalConf
   if (auto pooled = pooled_scores(evaluation.inputs, config.score); !pooled.empty()) {
     InputResult& all = results.emplace_back();
     all.name = "all";
+    all.is_pooled = true;
     for (auto& [label, score] : pooled) {
       MethodResult& method = all.methods.emplace_back();
       method.label = label;

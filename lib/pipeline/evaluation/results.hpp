@@ -29,6 +29,7 @@ struct MethodResult {
 struct InputResult {
   std::string name;  ///< the input's path, "all" for all together
   std::vector<MethodResult> methods;
+  bool is_pooled = false;
 };
 
 /// Each input's results; where there are several, and their truths expect the same tags, first those of all
