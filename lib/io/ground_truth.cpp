@@ -208,11 +208,14 @@ void require_overlap(const GroundTruth& truth, Interval recording, const std::st
     return a.begin_us < b.end_us && b.begin_us < a.end_us;
   };
   const auto has_part = [&](const Phase& phase) { return overlaps(phase.interval, recording); };
-  if (std::any_of(truth.phases.begin(), truth.phases.end(), has_part)) return;
+  const bool is_in_part = std::any_of(truth.phases.begin(), truth.phases.end(), has_part);
   const Interval phases{truth.phases.front().interval.begin_us, truth.phases.back().interval.end_us};
   const Interval as_milliseconds{phases.begin_us / 1000, phases.end_us / 1000};
   const bool may_be_milliseconds =
       overlaps(as_milliseconds, recording) && as_milliseconds.end_us > recording.end_us / 10;
+  const bool fit_as_milliseconds = may_be_milliseconds && as_milliseconds.end_us > recording.end_us / 2 &&
+                                   as_milliseconds.end_us < 2 * recording.end_us;
+  if (is_in_part && !fit_as_milliseconds) return;
   throw usage_error(fmt::format("{}: the phases lie from {} s to {} s, the recording from {} s to {} s{}",
                                 name, seconds_text(phases.begin_us), seconds_text(phases.end_us),
                                 seconds_text(recording.begin_us), seconds_text(recording.end_us),

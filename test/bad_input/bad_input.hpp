@@ -21,7 +21,7 @@ struct BadInput {
 /// Cases of one kind of input.
 struct BadInputs {
   std::string title;
-  std::string file_name;  ///< a .json is given as --config, with a good recording
+  std::string file_name;  ///< config.json and ground_truth.json are given with a good recording
   std::vector<BadInput> cases;
 };
 
@@ -33,5 +33,6 @@ BadInputs bad_aedat4();
 BadInputs bad_prophesee();
 BadInputs bad_rosbags();
 BadInputs bad_configs();
+BadInputs bad_truths();
 
 }  // namespace esi::test

@@ -43,6 +43,7 @@ void check_output(const fs::path& out, int exit_code) {
   if (exit_code != 0 && exit_code != 3) return;
   REQUIRE(fs::exists(out / "run.json"));
   const json run = json::parse(content_of(out / "run.json"));
+  if (run["tool"] == "esi-eval") return;
   CHECK(run["events"]["used"] > 0);
   if (exit_code == 3) CHECK(counted_losses(run) > 0);
 }
@@ -50,8 +51,10 @@ void check_output(const fs::path& out, int exit_code) {
 /// The message without what differs from run to run: folders.
 std::string message_of(const std::string& err, const TempFolder& folder) {
   std::string text = err.substr(0, err.find('\n'));
-  const std::string prefix = folder.path().string() + "/";
-  for (std::size_t at = 0; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
+  for (const fs::path& path : {folder.path(), source_dir()}) {
+    const std::string prefix = path.string() + "/";
+    for (std::size_t at = 0; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
+  }
   return text;
 }
 
@@ -60,18 +63,32 @@ std::string cell(std::string text) {
   return std::regex_replace(text, std::regex("<"), "&lt;");
 }
 
+struct Command {
+  std::string tool;
+  std::vector<std::string> arguments;
+};
+
+/// The tool that reads such a file, with whatever else it needs.
+Command command_for(const std::string& file_name, const std::string& file, const TempFolder& folder) {
+  if (file_name == "ground_truth.json") {
+    const auto recording = source_dir() / "data-samples/flight-start/events.aedat4";
+    return {"esi-eval", {recording, "--method", "esi", "-g", file}};
+  }
+  if (file_name == "config.json") {
+    return {"esi-recon", {folder.write("good.txt", sample_text(3000, 10)), "--config", file}};
+  }
+  return {"esi-recon", {file}};
+}
+
 /// One run of the tool; returns the table's line.
 std::string run_case(const BadInput& input, const std::string& file_name) {
   const TempFolder folder;
   const std::string file = folder.write(file_name, input.bytes());
   const auto out = folder / "out";
-  std::vector<std::string> arguments = {file, "-o", out, "--quiet"};
-  if (file_name.ends_with(".json")) {
-    arguments.front() = folder.write("good.txt", sample_text(3000, 10));
-    arguments.insert(arguments.end(), {"--config", file});
-  }
+  auto [tool, arguments] = command_for(file_name, file, folder);
+  arguments.insert(arguments.end(), {"-o", out, "--quiet"});
   arguments.insert(arguments.end(), input.arguments.begin(), input.arguments.end());
-  const auto result = run_tool("esi-recon", arguments);
+  const auto result = run_tool(tool, arguments);
   CAPTURE(file_name, input.what, result.err);
   CHECK(result.exit_code == input.exit_code);
   CHECK_THAT(result.err, Contains(input.told));
@@ -107,16 +124,20 @@ TEST_CASE("bad RAW and DAT get their exit codes and their one line, as the docs 
 }
 TEST_CASE("bad ROS bags get their exit codes and their one line, as the docs say") { check(bad_rosbags()); }
 TEST_CASE("bad configs get their exit codes and their one line, as the docs say") { check(bad_configs()); }
+TEST_CASE("bad ground truths get their exit codes and their one line, as the docs say") {
+  check(bad_truths());
+}
 
 TEST_CASE("the page of bad inputs is written", "[.write]") {
   std::string page =
-      "# Bad input\n\nWhat esi-recon makes of recordings and configs that are not as they should be. This "
-      "page is\n"
-      "written by test/bad_input, which runs the tool on every one of them (with `--size` where the format "
+      "# Bad input\n\nWhat esi-recon makes of recordings and configs that are not as they should be, and "
+      "esi-eval of ground truths.\n"
+      "This page is written by test/bad_input, which runs the tool on every one of them (with `--size` where "
+      "the format "
       "has no\n"
       "sensor size); exit codes are those of [contract.md](contract.md).\n";
   for (const BadInputs& inputs : {bad_text(), bad_hdf5(), bad_aedat2(), bad_aedat3(), bad_aedat4(),
-                                  bad_prophesee(), bad_rosbags(), bad_configs()}) {
+                                  bad_prophesee(), bad_rosbags(), bad_configs(), bad_truths()}) {
     page += table_of(inputs);
   }
   std::ofstream(page_path()) << page;

@@ -16,16 +16,20 @@ ExpectedTags expected_tags(const GroundTruth& truth, const EvalConfig& config, c
     return {given};
   }
   if (!truth.tags) return {};
+  const auto within_file = [&](auto check) {
+    try {
+      check();
+    } catch (const Error& error) {
+      throw usage_error(fmt::format("{}: {}", name, error.what()));
+    }
+  };
+  within_file([&] { tag_family_info(truth.tags->family); });
   if (truth.tags->family != config.detector.family) {
     throw usage_error(
         fmt::format("{}: its tags are of the family {}, the detector looks for {}; use --family {}", name,
                     truth.tags->family, config.detector.family, truth.tags->family));
   }
-  try {
-    require_tag_ids(truth.tags->family, truth.tags->ids);
-  } catch (const Error& error) {
-    throw usage_error(fmt::format("{}: {}", name, error.what()));
-  }
+  within_file([&] { require_tag_ids(truth.tags->family, truth.tags->ids); });
   return {truth.tags->ids};
 }
 
