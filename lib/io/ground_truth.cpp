@@ -203,7 +203,7 @@ GroundTruth read_ground_truth(const std::filesystem::path& path) {
   return parse_ground_truth(read_text_file(path), path);
 }
 
-void require_overlap(const GroundTruth& truth, Interval recording, const std::string& name) {
+void require_overlap(const GroundTruth& truth, Interval recording, bool is_whole, const std::string& name) {
   const auto overlaps = [](const Interval& a, const Interval& b) {
     return a.begin_us < b.end_us && b.begin_us < a.end_us;
   };
@@ -215,7 +215,7 @@ void require_overlap(const GroundTruth& truth, Interval recording, const std::st
       overlaps(as_milliseconds, recording) && as_milliseconds.end_us > recording.end_us / 10;
   const bool fit_as_milliseconds = may_be_milliseconds && as_milliseconds.end_us > recording.end_us / 2 &&
                                    as_milliseconds.end_us < 2 * recording.end_us;
-  if (is_in_part && !fit_as_milliseconds) return;
+  if (is_in_part && !(is_whole && fit_as_milliseconds)) return;
   throw usage_error(fmt::format("{}: the phases lie from {} s to {} s, the recording from {} s to {} s{}",
                                 name, seconds_text(phases.begin_us), seconds_text(phases.end_us),
                                 seconds_text(recording.begin_us), seconds_text(recording.end_us),

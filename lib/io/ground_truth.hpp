@@ -29,7 +29,8 @@ GroundTruth read_ground_truth(const std::filesystem::path& path);
 GroundTruth parse_ground_truth(std::string_view text, const std::filesystem::path& path);
 
 /// Throws a usage Error that shows both where none of the phases has any part of the recording in it, and
-/// asks for the unit where that would explain it: also where they are some 1000 times too long.
-void require_overlap(const GroundTruth& truth, Interval recording, const std::string& name);
+/// asks for the unit where that would explain it. Of a whole recording also where phases that begin with it
+/// last some 1000 times as long.
+void require_overlap(const GroundTruth& truth, Interval recording, bool is_whole, const std::string& name);
 
 }  // namespace esi

@@ -61,14 +61,13 @@ TEST_CASE("a folder that is not empty is refused before the work, and only a rep
   const auto out = folder / "out";
   const std::string arguments = start() + " --method esi";
   REQUIRE(evaluate(out, arguments).exit_code == 0);
-  const auto refused = evaluate(out, arguments + " --size nonsense");
+  const std::string absent =
+      "absent.aedat4 --method esi -g " + quoted(flight().parent_path() / "ground_truth.json");
+  const auto refused = evaluate(out, absent);
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.err, Contains("--force") && !Contains("--resume"));
   // An older report survives a run that fails.
-  const auto absent =
-      evaluate(out, "absent.aedat4 -g " + quoted(flight().parent_path() / "ground_truth.json") +
-                        " --method esi --force");
-  CHECK(absent.exit_code == 1);
+  CHECK(evaluate(out, absent + " --force").exit_code == 1);
   CHECK(fs::exists(out / "run.json"));
   CHECK(evaluate(out, arguments + " --no-tracking --force").exit_code == 0);
   CHECK_FALSE(fs::exists(out / "truth_0.tum"));

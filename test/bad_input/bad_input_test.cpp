@@ -130,12 +130,12 @@ TEST_CASE("bad ground truths get their exit codes and their one line, as the doc
 
 TEST_CASE("the page of bad inputs is written", "[.write]") {
   std::string page =
-      "# Bad input\n\nWhat esi-recon makes of recordings and configs that are not as they should be, and "
-      "esi-eval of ground truths.\n"
-      "This page is written by test/bad_input, which runs the tool on every one of them (with `--size` where "
-      "the format "
-      "has no\n"
-      "sensor size); exit codes are those of [contract.md](contract.md).\n";
+      "# Bad input\n\n"
+      "What esi-recon makes of recordings and configs that are not as they should be, and esi-eval of "
+      "ground\n"
+      "truths. This page is written by test/bad_input, which runs the tool on every one of them (with "
+      "`--size`\n"
+      "where the format has no sensor size); exit codes are those of [contract.md](contract.md).\n";
   for (const BadInputs& inputs : {bad_text(), bad_hdf5(), bad_aedat2(), bad_aedat3(), bad_aedat4(),
                                   bad_prophesee(), bad_rosbags(), bad_configs(), bad_truths()}) {
     page += table_of(inputs);

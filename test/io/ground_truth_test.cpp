@@ -98,13 +98,15 @@ TEST_CASE("phases that have no part of the recording in them are refused, with t
         "truth.json");
   };
   const Interval recording{0, 62000000};
-  CHECK_NOTHROW(require_overlap(truth("61.999999", "70"), recording, "rec"));
+  CHECK_NOTHROW(require_overlap(truth("61.999999", "70"), recording, true, "rec"));
   CHECK_THROWS_WITH(
-      require_overlap(truth("62", "70"), recording, "rec"),
+      require_overlap(truth("62", "70"), recording, true, "rec"),
       Contains("rec: the phases lie from 62.000000000 s to 70.000000000 s") && Contains("--time-zero"));
-  CHECK_THROWS_WITH(require_overlap(truth("30000", "62000"), recording, "rec"), Contains("milliseconds"));
+  CHECK_THROWS_WITH(require_overlap(truth("30000", "62000"), recording, true, "rec"),
+                    Contains("milliseconds"));
   // From 0 on, milliseconds do overlap.
-  CHECK_THROWS_WITH(require_overlap(truth("0", "62000"), recording, "rec"), Contains("milliseconds"));
-  CHECK_NOTHROW(require_overlap(truth("0", "6200"), recording, "rec"));
-  CHECK_THROWS_WITH(require_overlap(truth("-5", "0"), recording, "rec"), Contains("--time-zero"));
+  CHECK_THROWS_WITH(require_overlap(truth("0", "62000"), recording, true, "rec"), Contains("milliseconds"));
+  CHECK_NOTHROW(require_overlap(truth("0", "6200"), recording, true, "rec"));
+  CHECK_NOTHROW(require_overlap(truth("0", "62000"), recording, false, "rec"));  // the rest was cut off
+  CHECK_THROWS_WITH(require_overlap(truth("-5", "0"), recording, true, "rec"), Contains("--time-zero"));
 }

@@ -120,17 +120,20 @@ class Evaluator {
     return {input.digest->events(), frames, input.digest->t_last_us().value_or(0), source.fraction_read()};
   }
 
-  static void refuse_nothing(const InputRun& input, const CropSource& source, const std::string& name) {
+  bool is_whole() const { return config_.frames.interval() == Interval{}; }
+
+  void refuse_nothing(const InputRun& input, const CropSource& source, const std::string& name) const {
     if (input.digest->events() == 0) {
       throw Error(fmt::format("{}: there are no events in the part that was asked for{}", name,
                               source.losses().any() ? " (lost: " + source.losses().text() + ")" : ""));
     }
-    require_overlap(input.truth.truth, {*input.digest->t_first_us(), *input.digest->t_last_us() + 1}, name);
+    require_overlap(input.truth.truth, {*input.digest->t_first_us(), *input.digest->t_last_us() + 1},
+                    is_whole(), name);
   }
 
   bool run_frames(InputRun& input) {
     const auto pictures = pictures_of(input.input, config_.frames.interval());
-    require_overlap(input.truth.truth, {pictures.front().t_us, pictures.back().t_us + 1},
+    require_overlap(input.truth.truth, {pictures.front().t_us, pictures.back().t_us + 1}, is_whole(),
                     input.input.path.string());
     JudgedFrames judged(config_, input.truth, pool_, detectors_, kFramesPerThread * (pool_.workers() + 1));
     judged.run().label = frames_label(input.input);
