@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kStyle =
     "body{font:15px/1.5 sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;color:#222}"
     "table{border-collapse:collapse;margin:1em 0;font-variant-numeric:tabular-nums}"
-    "th,td{padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right}"
+    "th,td{padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right}td{white-space:nowrap}"
     "th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #222}"
     "caption{text-align:left;font-weight:bold;padding:.3em 0}figure{margin:1em 0;overflow-x:auto}"
     "figcaption{color:#555}img,svg{max-width:100%;height:auto}img{image-rendering:pixelated}"
