@@ -1,0 +1,153 @@
+"""The stages of the reproduction. Each makes folders of results, and skips those that are finished."""
+
+import dataclasses
+import json
+import pathlib
+import shutil
+
+from . import plan as plans
+from . import tuning
+from .tools import Tools, write_json
+
+BOARD_S = 1.01
+BOARD_TUNING_STRIDE = 2
+BOARD_OPTIONS = ["--size", "346x260", "--time-zero", "first-event"]
+
+
+@dataclasses.dataclass
+class Run:
+    plan: plans.Plan
+    tools: Tools
+    out: pathlib.Path
+    board: pathlib.Path | None  # the real tag board's recording
+    models: dict
+
+    def recording(self, light, seed):
+        return self.out / "flights" / plans.flight(self.plan, light, seed)[0] / "events.aedat4"
+
+    def report(self, *names):
+        return self.out.joinpath("reports", *names)
+
+    def default(self, method):
+        return plans.CONFIGS / f"{method}.json"
+
+    def tuned(self, method, where="tuned"):
+        return self.out / where / f"{method}-{where}.json"
+
+    def methods_tuned(self):
+        """All, unless the stage was interrupted."""
+        return [method for method in tuning.METHODS if self.tuned(method).exists()]
+
+    def simulate(self, light, seeds):
+        flights = [plans.flight(self.plan, light, seed) for seed in seeds]
+        self.tools.run_all([(self.out / "flights" / name, "esi-sim", arguments) for name, arguments in flights])
+
+    def evaluate_all(self, calls):
+        self.tools.run_all([self.tools.evaluate(*call) for call in calls])
+
+
+def tune(run):
+    """Each method's grid on the tuning flights; the best cell becomes tuned/METHOD-tuned.json."""
+    run.simulate("dim", run.plan.tuning)
+    flights = [run.recording("dim", seed) for seed in run.plan.tuning]
+    begin_s, end_s, fps = run.plan.tuning_part
+    choose(run, tuning.METHODS, "tuned", flights, ["--start", begin_s, "--end", end_s, "--fps", fps], ())
+
+
+def choose(run, methods, where, recordings, options, truths):
+    cells = {method: tuning.write_cells(run.out / "cells", method, run.plan.every_cell) for method in methods}
+    run.evaluate_all([(run.report(where, method), recordings, list(cells[method].values()), options, truths)
+                      for method in methods])
+    for method in methods:
+        report = run.report(where, method)
+        best = tuning.best_cell(report)
+        run.tuned(method, where).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(cells[method][best], run.tuned(method, where))
+        tuning.write_log(run.out / where / f"{method}.csv", report, [path.parent.name for path in recordings])
+
+
+def score(run):
+    """Every method, with its authors' defaults and tuned, on the scoring flights."""
+    run.simulate("dim", run.plan.scoring)
+    at_fps = [run.default(method) for method in plans.AT_FPS]
+    at_fps += [run.tuned(method) for method in run.methods_tuned() if method not in plans.AT_FRAMES]
+    at_frames = [run.default(method) for method in plans.AT_FRAMES]
+    at_frames += [run.tuned(method) for method in run.methods_tuned() if method in plans.AT_FRAMES]
+    calls = []
+    for seed in run.plan.scoring:
+        flight = [run.recording("dim", seed)]
+        calls.append((run.report("score", f"seed{seed}"), flight, at_fps, ["--fps", run.plan.scoring_fps]))
+        calls.append((run.report("score", f"seed{seed}-at-frames"), flight, at_frames, []))
+    run.evaluate_all(calls)
+
+
+def cost(run):
+    """What the authors' defaults cost at 100 FPS, on a part of each scoring flight; few frames are judged."""
+    begin_s, end_s = run.plan.cost_part
+    part = ["--start", begin_s, "--end", end_s]
+    for seed in run.plan.scoring:
+        flight = [run.recording("dim", seed)]
+        at_fps, at_frames = ([run.default(name) for name in names] for names in (plans.AT_FPS, plans.AT_FRAMES))
+        run.evaluate_all([(run.report("cost", f"seed{seed}"), flight, at_fps, [*part, "--stride", 10]),
+                          (run.report("cost", f"seed{seed}-at-frames"), flight, at_frames, part)])
+
+
+def dark(run):
+    """ESI and its adaptive form at 2 lux, straight ahead, and what each block brings."""
+    run.simulate("dark", run.plan.dark)
+    default = json.loads(run.default("esi-adaptive").read_text(encoding="utf-8"))
+    methods = [run.default("esi"), run.tuned("esi"), run.tuned("esi-adaptive")]
+    for name, changes in plans.ABLATION.items():
+        config = {"method": default["method"], "set": default["set"] | changes}
+        methods.append(write_json(run.out / "cells/ablation" / f"{name}.json", config))
+    methods.append(write_json(run.out / "cells/ablation/esi-clamp-3.json",
+                              {"method": "esi", "set": {"e_min": -3, "e_max": 3}}))
+    run.evaluate_all([(run.report("dark", f"seed{seed}"), [run.recording("dark", seed)], methods,
+                       ["--fps", run.plan.dark_fps]) for seed in run.plan.dark])
+
+
+def board(run):
+    """The real tag board: authors' defaults, tuned on the simulated flights, tuned on the board itself."""
+    if run.board is None:
+        return
+    truth = write_json(run.out / "board_truth.json", {
+        "phases": [{"name": "board", "start_s": 0.0, "end_s": BOARD_S}],
+        "tags": {"family": "tag36h11", "ids": list(range(12))}})
+    names = plans.WITHOUT_FRAMES
+    choose(run, names, "tuned-on-board", [run.board], [*BOARD_OPTIONS, "--stride", BOARD_TUNING_STRIDE], [truth])
+    defaults = [run.default(name) for name in plans.AT_FPS if name not in ("complementary", "edi-propagated")]
+    methods = defaults + [run.tuned(name, where) for where in ("tuned", "tuned-on-board") for name in names]
+    run.evaluate_all([(run.report("board", "methods"), [run.board], methods, BOARD_OPTIONS, [truth])])
+    run.evaluate_all([(run.report("board", name), [run.board],
+                       [network_config(run, name, f"{name}-10ms", {"window": "time", "window_us": 10000})],
+                       BOARD_OPTIONS, [truth], [model]) for name, model in run.models.items()])
+
+
+def network_config(run, name, label, settings):
+    config = json.loads(run.default(name).read_text(encoding="utf-8"))
+    config["set"] |= {"model": str(run.models[name])} | settings
+    return write_json(run.out / "cells/networks" / f"{label}.json", config)
+
+
+def networks(run):
+    """The networks on parts of the scoring flights; each part begins earlier than it is judged."""
+    calls = []
+    for seed in run.plan.scoring:
+        recording = run.recording("dim", seed)
+        for begin_s, judged_s, end_s in run.plan.network_parts:
+            truth = part_of_truth(recording.parent, judged_s, end_s)
+            for name, model in run.models.items():
+                config = network_config(run, name, name, {})
+                output = run.report("networks", f"{name}-seed{seed}-{judged_s:g}s")
+                calls.append((output, [recording], [config], ["--start", begin_s, "--end", end_s], [truth], [model]))
+    run.evaluate_all(calls)
+
+
+def part_of_truth(flight, begin_s, end_s):
+    truth = json.loads((flight / "ground_truth.json").read_text(encoding="utf-8"))
+    phase = next(phase for phase in truth["phases"] if phase["start_s"] <= begin_s < phase["end_s"])
+    truth["phases"] = [{"name": phase["name"], "start_s": begin_s, "end_s": end_s}]
+    return write_json(flight / f"ground_truth-{begin_s:g}s.json", truth)
+
+
+ALL = {"tune": tune, "score": score, "cost": cost, "dark": dark, "board": board, "networks": networks, "page": lambda run: None}
