@@ -89,7 +89,8 @@ the values of each method's authors, ESI's our own, since the paper gives none. 
 def networks_text(plan):
     parts = ", ".join(f"{begin:g} to {end:g} s" for _, begin, end in plan.network_parts) or "none in the quick run"
     return f"""With their authors' windows (0.35 events a pixel) and a frame every 10 ms that shows the last window's image. They are
-slow, so they run on parts of each scoring flight only: {parts}; reconstruction begins 0.5 s earlier.
+slow, so they run on parts of the scoring flights only: {parts}; reconstruction begins a quarter of a second earlier.
+"judged" is how many frames there are of each; a network that was stopped has fewer.
 The other methods' rates are on the same parts, at {plan.scoring_fps} frames a second, and had the whole flight before."""
 
 

@@ -67,18 +67,21 @@ def choose(run, methods, where, recordings, options, truths):
 
 
 def score(run):
-    """Every method, with its authors' defaults and tuned, on the scoring flights."""
+    """Every method with its authors' defaults on the scoring flights."""
     run.simulate("dim", run.plan.scoring)
-    at_fps = [run.default(method) for method in plans.AT_FPS]
-    at_fps += [run.tuned(method) for method in run.methods_tuned() if method not in plans.AT_FRAMES]
-    at_frames = [run.default(method) for method in plans.AT_FRAMES]
-    at_frames += [run.tuned(method) for method in run.methods_tuned() if method in plans.AT_FRAMES]
-    calls = []
-    for seed in run.plan.scoring:
-        flight = [run.recording("dim", seed)]
-        calls.append((run.report("score", f"seed{seed}"), flight, at_fps, ["--fps", run.plan.scoring_fps]))
-        calls.append((run.report("score", f"seed{seed}-at-frames"), flight, at_frames, []))
-    run.evaluate_all(calls)
+    score_each(run, "", [run.default(method) for method in plans.AT_FPS], ["--fps", run.plan.scoring_fps])
+    score_each(run, "-at-frames", [run.default(method) for method in plans.AT_FRAMES], [])
+
+
+def score_tuned(run):
+    for method in run.methods_tuned():
+        options = [] if method in plans.AT_FRAMES else ["--fps", run.plan.scoring_fps]
+        score_each(run, f"-tuned-{method}", [run.tuned(method)], options)
+
+
+def score_each(run, name, methods, options):
+    run.evaluate_all([(run.report("score", f"seed{seed}{name}"), [run.recording("dim", seed)], methods, options)
+                      for seed in run.plan.scoring])
 
 
 def cost(run):
@@ -150,4 +153,4 @@ def part_of_truth(flight, begin_s, end_s):
     return write_json(flight / f"ground_truth-{begin_s:g}s.json", truth)
 
 
-ALL = {"tune": tune, "score": score, "cost": cost, "dark": dark, "board": board, "networks": networks, "page": lambda run: None}
+ALL = {"tune": tune, "score": score, "score-tuned": score_tuned, "cost": cost, "dark": dark, "board": board, "networks": networks, "page": lambda run: None}

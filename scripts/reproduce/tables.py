@@ -57,8 +57,9 @@ class Scores:
 
 
 def scoring(run):
-    folders = [run.report("score", f"seed{seed}{part}") for seed in run.plan.scoring for part in ("", "-at-frames")]
-    return Scores(folders)
+    parts = ["", "-at-frames", *(f"-tuned-{method}" for method in tuning.METHODS)]
+    folders = [run.report("score", f"seed{seed}{part}") for seed in run.plan.scoring for part in parts]
+    return Scores([folder for folder in folders if (folder / "run.json").exists()])
 
 
 def counts(run):
@@ -139,15 +140,16 @@ def networks(run):
     parts = [(begin_s, end_s) for _, begin_s, end_s in run.plan.network_parts]
     for method in ("esi", "esi-tuned", "esi-adaptive", "accumulator-tuned"):
         rows.append([method, *on_parts(run, method, parts)])
-    return markdown(["method", *PHASES[:3], "all parts", "frames"], rows)
+    return markdown(["method", *PHASES[:3], "all parts", "judged"], rows)
 
 
 def on_parts(run, method, parts):
     rates, frames = [], 0
     for begin_s, end_s in parts:
         of_seeds = []
+        part = "-tuned-" + method.removesuffix("-tuned") if method.endswith("-tuned") else ""
         for seed in run.plan.scoring:
-            own = [int(row["detected"]) for row in rows_of(run.report("score", f"seed{seed}"), "frames.csv")
+            own = [int(row["detected"]) for row in rows_of(run.report("score", f"seed{seed}{part}"), "frames.csv")
                    if row["method"] == method and begin_s <= int(row["t_us"]) * 1e-6 < end_s]
             of_seeds.append(sum(own) / len(own))
             frames += len(own)
@@ -184,7 +186,14 @@ def chosen(run, where="tuned"):
         log = run.out / where / f"{method}.csv"
         if log.exists():
             best = tuning.best_cell(run.report(where, method))
-            row = next(row for row in rows_of(log.parent, log.name) if row["cell"] == best)
-            first = row["rate"] if where == "tuned" else float(row["tags_found"]) / float(row["tag_chances"])
-            rows.append([method, f"`{best}`", f"{100 * float(first):.1f} %"])
-    return markdown(["method", "best cell", "rate there"], rows)
+            cells = {row["cell"]: row for row in rows_of(log.parent, log.name)}
+            plain = max((row for row in cells.values() if row["cell"].endswith("_filter-plain")),
+                        key=lambda row: tuned_rate(row, where))
+            rows.append([method, f"`{best}`", percent([tuned_rate(cells[best], where)]), f"`{plain['cell']}`",
+                         percent([tuned_rate(plain, where)])])
+    return markdown(["method", "best cell", "its rate there", "best without filter", "its rate there"], rows)
+
+
+def tuned_rate(row, where):
+    """Of frames on the flights, of tags on the board."""
+    return float(row["rate"]) if where == "tuned" else int(row["tags_found"]) / int(row["tag_chances"])
