@@ -5,7 +5,7 @@ import statistics
 from . import tables
 
 PAPER_RATES = {"esi": 81.39, "accumulator": 46.31, "complementary": 43.44, "edi": 14.52}
-ROW, BAR, LEFT, SCALE = 40, 13, 150, 5  # px; SCALE px per per cent
+ROW, BAR, TOP, LEFT, SCALE = 40, 13, 50, 150, 5  # px; SCALE px per per cent
 DEFAULT, TUNED = "#9ab", "#247"
 
 
@@ -13,19 +13,19 @@ def write(run, path):
     scores = tables.scoring(run)
     parts = []
     for i, method in enumerate(tables.METHODS):
-        y = 30 + i * ROW
+        y = TOP + i * ROW
         parts.append(f'<text x="{LEFT - 8}" y="{y + 17}" text-anchor="end">{method}</text>')
         for label, colour, top in ((method, DEFAULT, y), (method + "-tuned", TUNED, y + BAR)):
             parts += bar([100 * rate for rate in scores.rates(label)], colour, top)
         if method in PAPER_RATES:
             x = LEFT + SCALE * PAPER_RATES[method]
             parts.append(f'<path d="M{x:.1f} {y - 3}v{2 * BAR + 6}" stroke="#c30" stroke-width="3"/>')
-    width, height = LEFT + 100 * SCALE + 40, 40 + ROW * len(tables.METHODS)
-    legend = "light: authors' defaults; dark: tuned; black line: lowest to highest seed; red: the paper"
+    width, height = LEFT + 100 * SCALE + 40, TOP + ROW * len(tables.METHODS)
+    legend = "Light: authors' defaults; dark: tuned; black line: lowest to highest seed; red: the paper"
     path.write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" '
         f'font-size="13">\n<rect width="{width}" height="{height}" fill="white"/>\n'
-        f'<text x="8" y="18">Frames with the board detected, %. {legend}</text>\n' + "\n".join(parts) + "\n</svg>\n",
+        f'<text x="8" y="18">Frames with the board detected, %</text>\n<text x="8" y="36">{legend}</text>\n' + "\n".join(parts) + "\n</svg>\n",
         encoding="utf-8")
 
 
