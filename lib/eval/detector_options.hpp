@@ -7,9 +7,9 @@
 
 namespace esi {
 
-/// How tags are looked for. Defaults are those of the AprilTag library (Olson 2011; Wang & Olson 2016), except
-/// corrected_bits, of which it has 2, and quad_decimate, also 2: on a DAVIS346 that costs half of the tags that
-/// are some 30 px large.
+/// How tags are looked for. Defaults are those of the AprilTag library (Olson 2011; Wang & Olson 2016),
+/// except corrected_bits, of which it has 2, and quad_decimate, also 2: on a DAVIS346 that costs half of the
+/// tags that are some 30 px large.
 struct DetectorOptions {
   std::string family = "tag36h11";
   std::int64_t corrected_bits = 1;

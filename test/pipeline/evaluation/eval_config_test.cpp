@@ -84,8 +84,7 @@ TEST_CASE("a bad evaluation config is told with its name") {
       std::pair{R"({"methods": ["esi", "esi"]})", "given twice"}, std::pair{R"({"stride": 0})", "stride"},
       std::pair{R"({"ids": "1,,2"})", "ids"}, std::pair{R"({"ids": "1,1"})", "1 is there twice"},
       std::pair{R"({"ids": "-1"})", "ids"}, std::pair{R"({"ids": "1,"})", "ids"},
-      std::pair{R"({"corrected_bits": 4})", "corrected_bits"},
-      std::pair{R"({"max_age": -1})", "max_age"});
+      std::pair{R"({"corrected_bits": 4})", "corrected_bits"}, std::pair{R"({"max_age": -1})", "max_age"});
   CAPTURE(row.first);
   CHECK_THROWS_WITH(config.set_json(json::parse(row.first), "bad.json"),
                     Contains("bad.json: ") && Contains(row.second));
