@@ -25,7 +25,7 @@ struct Given {
 /// The truth that stands beside an input under its usual name.
 fs::path truth_beside(const EvalInput& input) {
   const fs::path folder = input.is_frames ? input.path : input.path.parent_path();
-  const fs::path truth = folder / "ground_truth.json";
+  fs::path truth = folder / "ground_truth.json";
   std::error_code absent;
   if (fs::exists(truth, absent)) return truth;
   throw usage_error(fmt::format("{}: say with -g where its ground truth is; there is no {} beside it",
