@@ -1,6 +1,6 @@
 # Installs the build into a fresh prefix and looks at what is there: a consumer's project that finds, builds
 # against and runs the library, every installed header, the tool, its man page and its completion.
-# Takes BUILD_DIR, SOURCE_DIR, WORK_DIR, GENERATOR, BUILD_TYPE, CXX_COMPILER.
+# Takes BUILD_DIR, SOURCE_DIR, WORK_DIR, GENERATOR, BUILD_TYPE, CXX_COMPILER, CXX_FLAGS.
 set(prefix ${WORK_DIR}/prefix)
 set(consumer ${WORK_DIR}/consumer)
 file(REMOVE_RECURSE ${WORK_DIR})
@@ -29,7 +29,7 @@ file(WRITE ${consumer}/all_headers.cpp "${includes}")
 
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${consumer} -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
-  -DCMAKE_FIND_USE_PACKAGE_REGISTRY=NO)
+  -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=NO)
 run(${CMAKE_COMMAND} --build ${consumer})
 run(${consumer}/consumer ${SOURCE_DIR}/data-samples/flight-start/events.txt)
 expect("${output}" "^128x96 at 199979 us, middle [0-9]+\n$" "the consumer")
