@@ -13,30 +13,9 @@
 namespace esi {
 namespace {
 
-using Quaternion = cv::Vec4d;  // x, y, z, w
-
-Quaternion unit_quaternion(const std::array<double, 4>& xyzw) {
-  const Quaternion q(xyzw[0], xyzw[1], xyzw[2], xyzw[3]);
-  return q / cv::norm(q);
-}
-
-/// a, then b's rotation before it: the rotation a * b.
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-  return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
-          a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
-          a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
-          a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
-}
-
-Quaternion slerp(const Quaternion& a, Quaternion b, double share) {
-  double cosine = a.dot(b);
-  if (cosine < 0.0) {  // b and -b are the same rotation, this one is nearer
-    b = -b;
-    cosine = -cosine;
-  }
-  if (cosine > 0.9999) return cv::normalize(a * (1.0 - share) + b * share);
-  const double angle = std::acos(cosine);
-  return (a * std::sin((1.0 - share) * angle) + b * std::sin(share * angle)) / std::sin(angle);
+Quaternion quaternion_of(const TrackPose& pose) {
+  const auto& [x, y, z, w] = pose.quaternion_xyzw;
+  return normalized({x, y, z, w});
 }
 
 /// std::normal_distribution differs from library to library; Box and Muller's is the same everywhere.
@@ -59,22 +38,7 @@ class NormalSource {
   std::mt19937_64 random_;
 };
 
-Quaternion rotation_by(const cv::Vec3d& angles_rad) {
-  const double angle = cv::norm(angles_rad);
-  if (angle == 0.0) return {0.0, 0.0, 0.0, 1.0};
-  const cv::Vec3d v = angles_rad * (std::sin(angle / 2.0) / angle);
-  return {v[0], v[1], v[2], std::cos(angle / 2.0)};
-}
-
 }  // namespace
-
-cv::Matx33d rotation_of_quaternion(const std::array<double, 4>& xyzw) {
-  const auto q = unit_quaternion(xyzw);
-  const double x = q[0], y = q[1], z = q[2], w = q[3];
-  return {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
-          2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-          2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
-}
 
 PoseTrack::PoseTrack(std::vector<TrackPose> poses, std::int64_t longest_gap_us)
     : poses_(std::move(poses)), longest_gap_us_(longest_gap_us) {
@@ -84,21 +48,20 @@ PoseTrack::PoseTrack(std::vector<TrackPose> poses, std::int64_t longest_gap_us)
   throw usage_error(fmt::format("the pose after {} s is not later", seconds_text(clash->t_us)));
 }
 
-std::optional<RigidPose> PoseTrack::at(std::int64_t t_us) const {
+std::optional<Pose> PoseTrack::at(std::int64_t t_us) const {
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), t_us,
                                       [](const TrackPose& pose, std::int64_t t) { return pose.t_us < t; });
   if (after == poses_.end()) return std::nullopt;
   const cv::Vec3d end(after->position_m.data());
-  if (after->t_us == t_us) return RigidPose{rotation_of_quaternion(after->quaternion_xyzw), end};
+  if (after->t_us == t_us) return Pose{rotation_of(quaternion_of(*after)), end};
   if (after == poses_.begin()) return std::nullopt;
   const auto before = after - 1;
   const std::int64_t gap_us = after->t_us - before->t_us;
   if (gap_us > longest_gap_us_) return std::nullopt;
   const double share = static_cast<double>(t_us - before->t_us) / static_cast<double>(gap_us);
   const cv::Vec3d begin(before->position_m.data());
-  const Quaternion q =
-      slerp(unit_quaternion(before->quaternion_xyzw), unit_quaternion(after->quaternion_xyzw), share);
-  return RigidPose{rotation_of_quaternion({q[0], q[1], q[2], q[3]}), begin + share * (end - begin)};
+  const Quaternion q = slerp(quaternion_of(*before), quaternion_of(*after), share);
+  return Pose{rotation_of(q), begin + share * (end - begin)};
 }
 
 void PoseNoise::declare(OptionTable& table) {
@@ -126,10 +89,9 @@ std::vector<TrackPose> with_noise(std::vector<TrackPose> poses, const PoseNoise&
     for (std::size_t axis = 0; axis < 3; ++axis) {
       pose.position_m[axis] += noise.position_m * position_error[static_cast<int>(axis)];
     }
-    const Quaternion turned =
-        product(unit_quaternion(pose.quaternion_xyzw),
-                rotation_by(angle_error * (noise.angle_deg * std::numbers::pi / 180.0)));
-    pose.quaternion_xyzw = {turned[0], turned[1], turned[2], turned[3]};
+    const cv::Vec3d error_rad = angle_error * (noise.angle_deg * std::numbers::pi / 180.0);
+    const Quaternion turned = product(quaternion_of(pose), quaternion_about(error_rad));
+    pose.quaternion_xyzw = {turned.x, turned.y, turned.z, turned.w};
   }
   return poses;
 }

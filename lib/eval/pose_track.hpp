@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "esi/core/options.hpp"
+#include "esi/core/pose.hpp"
 #include "esi/core/truth.hpp"
-#include "esi/eval/rigid_pose.hpp"
 
 namespace esi {
 
@@ -20,7 +20,7 @@ class PoseTrack {
   explicit PoseTrack(std::vector<TrackPose> poses, std::int64_t longest_gap_us = 100'000);
 
   /// Nothing before the first pose, after the last one, and in gaps.
-  std::optional<RigidPose> at(std::int64_t t_us) const;
+  std::optional<Pose> at(std::int64_t t_us) const;
 
  private:
   std::vector<TrackPose> poses_;

@@ -21,7 +21,7 @@ std::vector<cv::Point3d> square_corners(double size_m) {
   return {{-h, h, 0.0}, {h, h, 0.0}, {h, -h, 0.0}, {-h, -h, 0.0}};
 }
 
-bool is_finite(const RigidPose& pose) {
+bool is_finite(const Pose& pose) {
   return cv::checkRange(pose.rotation) && std::isfinite(cv::norm(pose.position_m));
 }
 

@@ -4,16 +4,16 @@
 #include <optional>
 #include <span>
 
+#include "esi/core/pose.hpp"
 #include "esi/core/truth.hpp"
 #include "esi/eval/detection.hpp"
 #include "esi/eval/pose_track.hpp"
-#include "esi/eval/rigid_pose.hpp"
 
 namespace esi {
 
 /// A tag in the camera's frame.
 struct TagPose {
-  RigidPose pose;
+  Pose pose;
   double reprojection_error_px = 0.0;  ///< root mean square over the four corners
   /// The same of the other pose that a square has in an image (Collins & Bartoli 2014, IPPE). Where the two
   /// are alike, as for a tag seen frontally, the rotation may be the wrong one; the position hardly changes.

@@ -77,9 +77,9 @@ void TrackerOptions::declare(OptionTable& table) {
              "time without a measurement after which the track ends");
 }
 
-std::optional<Projection> project(const cv::Vec3d& world_m, const RigidPose& camera_pose,
+std::optional<Projection> project(const cv::Vec3d& world_m, const Pose& camera_pose,
                                   const CameraModel& camera) {
-  const RigidPose to_camera = camera_pose.inverse();
+  const Pose to_camera = camera_pose.inverse();
   const cv::Vec3d p = to_camera * world_m;
   const double z = p[2];
   if (!(z > 1e-6)) return std::nullopt;
@@ -90,7 +90,7 @@ std::optional<Projection> project(const cv::Vec3d& world_m, const RigidPose& cam
                     by_point * to_camera.rotation};
 }
 
-cv::Vec3d unproject(const cv::Vec3d& uvd, const RigidPose& camera_pose, const CameraModel& camera) {
+cv::Vec3d unproject(const cv::Vec3d& uvd, const Pose& camera_pose, const CameraModel& camera) {
   return camera_pose *
          (uvd[2] * cv::Vec3d((uvd[0] - camera.cx) / camera.fx, (uvd[1] - camera.cy) / camera.fy, 1.0));
 }
@@ -120,7 +120,7 @@ cv::Matx33d Tracker::noise_of(const TargetMeasurement& measurement, const cv::Ma
   return cv::Matx33d::diag({pixel, pixel, depth}) + own * (jacobian * jacobian.t());
 }
 
-void Tracker::start(std::int64_t t_us, const TargetMeasurement& measurement, const RigidPose& camera_pose) {
+void Tracker::start(std::int64_t t_us, const TargetMeasurement& measurement, const Pose& camera_pose) {
   const cv::Vec3d uvd(measurement.u_px, measurement.v_px, measurement.depth_m);
   TargetState state{t_us, unproject(uvd, camera_pose, camera_), {}, {}};
   const auto projection = project(state.position_m, camera_pose, camera_);
@@ -140,7 +140,7 @@ std::optional<TargetState> Tracker::at(std::int64_t t_us) const {
 }
 
 Tracker::Outcome Tracker::update(std::int64_t t_us, const TargetMeasurement& measurement,
-                                 const RigidPose& camera_pose) {
+                                 const Pose& camera_pose) {
   if (state_ && t_us < latest_us_) {
     throw usage_error(fmt::format("a measurement at {} s comes after one at {} s", seconds_text(t_us),
                                   seconds_text(latest_us_)));

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "esi/core/options.hpp"
+#include "esi/core/pose.hpp"
 #include "esi/core/truth.hpp"
-#include "esi/eval/rigid_pose.hpp"
 
 namespace esi {
 
@@ -41,10 +41,10 @@ struct Projection {
   cv::Vec3d uvd;  ///< px, px, m
   cv::Matx33d jacobian;
 };
-std::optional<Projection> project(const cv::Vec3d& world_m, const RigidPose& camera_pose,
+std::optional<Projection> project(const cv::Vec3d& world_m, const Pose& camera_pose,
                                   const CameraModel& camera);
 /// The point of the world with that image and depth.
-cv::Vec3d unproject(const cv::Vec3d& uvd, const RigidPose& camera_pose, const CameraModel& camera);
+cv::Vec3d unproject(const cv::Vec3d& uvd, const Pose& camera_pose, const CameraModel& camera);
 
 /// The state after `dt_s` of constant velocity, disturbed by white acceleration.
 TargetState predicted(const TargetState& state, std::int64_t t_us, double acceleration_noise);
@@ -59,13 +59,13 @@ class Tracker {
 
   /// A measurement at a time that isn't before the last one's (else a usage Error), from a camera that was
   /// there. Starts anew after the longest gap, and when too many in a row were gated.
-  Outcome update(std::int64_t t_us, const TargetMeasurement& measurement, const RigidPose& camera_pose);
+  Outcome update(std::int64_t t_us, const TargetMeasurement& measurement, const Pose& camera_pose);
 
   /// Predicted from the last measurement used. Nothing before the first, and after the longest gap.
   std::optional<TargetState> at(std::int64_t t_us) const;
 
  private:
-  void start(std::int64_t t_us, const TargetMeasurement& measurement, const RigidPose& camera_pose);
+  void start(std::int64_t t_us, const TargetMeasurement& measurement, const Pose& camera_pose);
   cv::Matx33d noise_of(const TargetMeasurement& measurement, const cv::Matx33d& jacobian) const;
 
   TrackerOptions options_;

@@ -11,10 +11,10 @@
 #include "esi/io/output/output_file.hpp"
 #include "esi/io/output/output_folder.hpp"
 #include "esi/io/output/run_manifest.hpp"
+#include "esi/io/truth_tables.hpp"
 #include "esi/pipeline/memory_limit.hpp"
 #include "esi/pipeline/simulation/phase_counts.hpp"
 #include "esi/pipeline/simulation/sim_output.hpp"
-#include "esi/sim/tum_poses.hpp"
 
 namespace esi {
 namespace {
@@ -42,7 +42,11 @@ constexpr FolderContent kSimulationContent{"a simulation", is_file_of_simulation
 SimOptions with_poses(SimOptions options) {
   TrajectoryOptions& trajectory = options.trajectory;
   if (trajectory.kind == TrajectoryOptions::Kind::poses && !trajectory.poses.empty()) {
-    trajectory.pose_list = parse_tum_poses(read_text_file(trajectory.poses), trajectory.poses);
+    for (const TrackPose& pose : read_track(trajectory.poses)) {
+      const auto& [x, y, z, w] = pose.quaternion_xyzw;
+      trajectory.pose_list.push_back(
+          {pose.t_us, {rotation_of(normalized({x, y, z, w})), cv::Vec3d(pose.position_m.data())}});
+    }
   }
   return options;
 }

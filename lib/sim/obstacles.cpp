@@ -19,7 +19,7 @@ constexpr std::int64_t kPathStep_us = 200'000;
 constexpr std::uint64_t kTriesPerBox = 20;
 constexpr std::uint64_t kNumbersPerTry = 16;
 
-cv::Vec2d place_of(const Pose& pose) { return {pose.position[0], pose.position[1]}; }
+cv::Vec2d place_of(const Pose& pose) { return {pose.position_m[0], pose.position_m[1]}; }
 
 double radius_of(const Box& box) { return std::hypot(box.half_m[0], box.half_m[1]); }
 

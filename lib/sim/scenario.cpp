@@ -15,7 +15,7 @@ namespace {
 Pose rounded(Pose pose) {
   const auto round = [](double value) { return std::round(value * 0x1p30) * 0x1p-30; };
   std::transform(pose.rotation.val, pose.rotation.val + 9, pose.rotation.val, round);
-  std::transform(pose.position.val, pose.position.val + 3, pose.position.val, round);
+  std::transform(pose.position_m.val, pose.position_m.val + 3, pose.position_m.val, round);
   return pose;
 }
 
@@ -41,7 +41,7 @@ std::vector<SeenTag> Scenario::tags(std::int64_t t_us) const {
   const Pose camera = camera_pose(t_us);
   const Pose board = board_pose(t_us);
   const Pose board_to_camera = camera.inverse() * board;
-  const bool faces = board_to_camera.rotation.col(2).dot(cv::Matx31d(board_to_camera.position)) > 0.0;
+  const bool faces = board_to_camera.rotation.col(2).dot(cv::Matx31d(board_to_camera.position_m)) > 0.0;
   std::vector<SeenTag> seen;
   for (const BoardTag& tag : board_tags()) {
     SeenTag& out = seen.emplace_back(SeenTag{tag.id, faces, {}});
@@ -54,7 +54,7 @@ std::vector<SeenTag> Scenario::tags(std::int64_t t_us) const {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       out.corners[i] = camera_.project(board_to_camera * corners[i]);
       out.visible =
-          out.visible && camera_.sees(out.corners[i]) && !scene_.hides(camera.position, board * corners[i]);
+          out.visible && camera_.sees(out.corners[i]) && !scene_.hides(camera.position_m, board * corners[i]);
     }
   }
   return seen;
@@ -62,7 +62,7 @@ std::vector<SeenTag> Scenario::tags(std::int64_t t_us) const {
 
 View Scenario::view(std::int64_t t_us) const {
   const Pose camera = camera_pose(t_us);
-  return project(scene_.surfaces(camera.position, board_pose(t_us)), camera, camera_);
+  return project(scene_.surfaces(camera.position_m, board_pose(t_us)), camera, camera_);
 }
 
 cv::Mat1b Scenario::clean_frame(std::int64_t t_us) const {

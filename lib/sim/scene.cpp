@@ -20,10 +20,10 @@ constexpr int kIdsPerBox = kBoxSides + 1;
 
 Box vehicle_at(const Pose& board) {
   Box box;
-  box.centre_m = {board.position[0], board.position[1]};
+  box.centre_m = {board.position_m[0], board.position_m[1]};
   box.heading_rad = std::atan2(board.rotation(1, 0), board.rotation(0, 0));
   box.half_m = {0.5 * kDeckSide_m, 0.5 * kDeckSide_m};
-  box.height_m = board.position[2];
+  box.height_m = board.position_m[2];
   box.gain = 0.3F;
   return box;
 }
@@ -35,7 +35,7 @@ Surface deck_at(const Pose& board, const Texture& texture) {
   deck.along_u = kBoardTexel_m * cv::Vec3d(board.rotation(0, 0), board.rotation(1, 0), board.rotation(2, 0));
   deck.along_v = kBoardTexel_m * cv::Vec3d(board.rotation(0, 1), board.rotation(1, 1), board.rotation(2, 1));
   const double side = texture.side();
-  deck.origin = board.position - 0.5 * side * (deck.along_u + deck.along_v);
+  deck.origin = board.position_m - 0.5 * side * (deck.along_u + deck.along_v);
   deck.corners = {cv::Vec2d(0, 0), {side, 0}, {side, side}, {0, side}};
   return deck;
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "esi/core/options.hpp"
+#include "esi/core/pose.hpp"
 #include "esi/sim/box.hpp"
-#include "esi/sim/pose.hpp"
 #include "esi/sim/surface.hpp"
 #include "esi/sim/texture.hpp"
 #include "esi/sim/trajectory.hpp"

@@ -8,7 +8,7 @@
 #include "esi/core/options.hpp"
 #include "esi/core/phase.hpp"
 #include "esi/sim/flight_options.hpp"
-#include "esi/sim/pose.hpp"
+#include "esi/sim/timed_pose.hpp"
 
 namespace esi {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "esi/core/event.hpp"
+#include "esi/core/pose.hpp"
 #include "esi/sim/camera.hpp"
-#include "esi/sim/pose.hpp"
 #include "esi/sim/surface.hpp"
 
 namespace esi {

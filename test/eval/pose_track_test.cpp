@@ -17,7 +17,7 @@ TrackPose pose(std::int64_t t_us, double x, const cv::Vec3d& turn) {
   return track_pose(t_us, {rotation_about(turn), {x, 1, 2}});
 }
 
-double angle_between(const RigidPose& a, const cv::Matx33d& rotation) {
+double angle_between(const Pose& a, const cv::Matx33d& rotation) {
   cv::Vec3d turn;
   cv::Rodrigues(a.rotation.t() * rotation, turn);
   return cv::norm(turn);

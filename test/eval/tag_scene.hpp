@@ -5,8 +5,8 @@
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
+#include "esi/core/pose.hpp"
 #include "esi/core/truth.hpp"
-#include "esi/eval/rigid_pose.hpp"
 
 namespace esi::test {
 
@@ -19,7 +19,7 @@ inline cv::Matx33d rotation_about(const cv::Vec3d& v) {
 }
 
 /// A pose of the camera's frame as a line of a track.
-inline TrackPose track_pose(std::int64_t t_us, const RigidPose& pose) {
+inline TrackPose track_pose(std::int64_t t_us, const Pose& pose) {
   cv::Vec3d v;
   cv::Rodrigues(pose.rotation, v);
   const double angle = cv::norm(v), factor = angle > 0.0 ? std::sin(angle / 2.0) / angle : 0.0;
@@ -29,7 +29,7 @@ inline TrackPose track_pose(std::int64_t t_us, const RigidPose& pose) {
 
 /// Where OpenCV projects the corners of a tag in the camera's frame to: lower left, lower right, upper right,
 /// upper left in the tag's own frame of x right and y down.
-inline std::array<double, 8> tag_corners(const RigidPose& tag, double size_m,
+inline std::array<double, 8> tag_corners(const Pose& tag, double size_m,
                                          const CameraModel& camera = kCamera) {
   const double h = size_m / 2.0;
   const std::vector<cv::Point3d> corners{{-h, h, 0}, {h, h, 0}, {h, -h, 0}, {-h, -h, 0}};

@@ -16,9 +16,9 @@ using Outcome = Tracker::Outcome;
 namespace {
 
 /// Looks down from 3 m.
-RigidPose camera_at(double x) { return {rotation_about({3.0, 0.1, -0.2}), {x, 0.2, 3.0}}; }
+Pose camera_at(double x) { return {rotation_about({3.0, 0.1, -0.2}), {x, 0.2, 3.0}}; }
 
-TargetMeasurement measure(const cv::Vec3d& world_m, const RigidPose& camera, double depth_noise_m = 0.03) {
+TargetMeasurement measure(const cv::Vec3d& world_m, const Pose& camera, double depth_noise_m = 0.03) {
   const cv::Vec3d uvd = project(world_m, camera, kCamera)->uvd;
   return {uvd[0], uvd[1], uvd[2], depth_noise_m};
 }
@@ -39,7 +39,7 @@ struct Running {
 }  // namespace
 
 TEST_CASE("The projection's derivative is the numerical one") {
-  const RigidPose camera = camera_at(0.3);
+  const Pose camera = camera_at(0.3);
   for (const cv::Vec3d& point :
        {cv::Vec3d(0.1, 0.2, 0.3), cv::Vec3d(-0.8, 0.9, -0.2), cv::Vec3d(0.9, -0.3, 1.5)}) {
     const auto projection = project(point, camera, kCamera);
@@ -58,8 +58,8 @@ TEST_CASE("The projection's derivative is the numerical one") {
 }
 
 TEST_CASE("A projected point is where OpenCV puts it") {
-  const RigidPose camera = camera_at(0.3);
-  const RigidPose tag = camera.inverse() * RigidPose{rotation_about({3.1, 0, 0}), {0.4, -0.1, 0.2}};
+  const Pose camera = camera_at(0.3);
+  const Pose tag = camera.inverse() * Pose{rotation_about({3.1, 0, 0}), {0.4, -0.1, 0.2}};
   const auto corners = esi::test::tag_corners(tag, 1e-6);
   const cv::Vec3d uvd = project({0.4, -0.1, 0.2}, camera, kCamera)->uvd;
   CHECK(uvd[0] == Approx(corners[0]).margin(1e-3));
@@ -97,8 +97,8 @@ TEST_CASE("The error is as large as the filter says, no larger, no smaller (NEES
     for (int axis = 0; axis < 3; ++axis) velocity[axis] = 0.3 * normal(random);
     for (int k = 0; k <= 100; ++k) {
       const std::int64_t t_us = 20'000 * k;
-      const RigidPose camera = camera_at(position[0]);
-      RigidPose true_camera = camera;
+      const Pose camera = camera_at(position[0]);
+      Pose true_camera = camera;
       for (int axis = 0; axis < 3; ++axis) true_camera.position_m[axis] += 0.02 * normal(random);
       TargetMeasurement measurement = measure(position, true_camera, 0.05);
       measurement.u_px += 2.0 * normal(random);
@@ -147,7 +147,7 @@ TEST_CASE("An outlier is gated and leaves no trace") {
 TEST_CASE("The gate is the Mahalanobis distance's, with the options' limit") {
   const auto gates = [](double sigmas) {
     Tracker tracker({}, kCamera);
-    const RigidPose camera = camera_at(0);
+    const Pose camera = camera_at(0);
     const cv::Vec3d target(0, 0.1, 0.3);
     tracker.update(0, measure(target, camera), camera);
     const auto projection = project(target, camera, kCamera);
@@ -195,7 +195,7 @@ TEST_CASE("Measurements that are gated again and again start the track anew") {
 TEST_CASE("Nothing is known before the first measurement, and none may come late") {
   Tracker tracker({}, kCamera);
   CHECK_FALSE(tracker.at(0));
-  const RigidPose camera = camera_at(0);
+  const Pose camera = camera_at(0);
   CHECK(tracker.update(10, measure({0, 0, 0}, camera), camera) == Outcome::started);
   CHECK_FALSE(tracker.at(9));
   CHECK_THROWS_AS(tracker.update(9, measure({0, 0, 0}, camera), camera), Error);

@@ -109,7 +109,7 @@ TEST_CASE(
   ground.along_v = {0, -1.0, 0};
   ground.corners = {cv::Vec2d(-20, -20), {20, -20}, {20, 20}, {-20, 20}};
   surfaces.push_back(ground);
-  box.add_sides(above.position, white, 1, surfaces);
+  box.add_sides(above.position_m, white, 1, surfaces);
   REQUIRE(surfaces.size() == 3);
   surfaces.push_back(box.top(white, 5));
   for (Surface& surface : surfaces) surface.gain = 1.0F;

@@ -111,7 +111,7 @@ TEST_CASE("Another seed gives other noise and the same truth; another scene seed
     const auto a = first.scenario().clean_frame(t_us), b = second.scenario().clean_frame(t_us);
     CHECK(cv::norm(a, b, cv::NORM_INF) == 0.0);
     CHECK(first.scenario().tags(t_us)[0].corners == second.scenario().tags(t_us)[0].corners);
-    CHECK(first.scenario().camera_pose(t_us).position == second.scenario().camera_pose(t_us).position);
+    CHECK(first.scenario().camera_pose(t_us).position_m == second.scenario().camera_pose(t_us).position_m);
     CHECK(cv::norm(a, third.scenario().clean_frame(t_us), cv::NORM_INF) > 10.0);
   }
   const Recording one = record(first), other = record(second);

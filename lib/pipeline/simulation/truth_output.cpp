@@ -9,7 +9,7 @@ namespace {
 
 TrackPose track_pose(std::int64_t t_us, const Pose& pose) {
   const Quaternion q = quaternion_of(pose.rotation);
-  const cv::Vec3d& p = pose.position;
+  const cv::Vec3d& p = pose.position_m;
   return {t_us, {p[0], p[1], p[2]}, {q.x, q.y, q.z, q.w}};
 }
 

@@ -1,14 +1,18 @@
-#include "esi/sim/pose.hpp"
+#include "esi/core/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace esi {
-namespace {
 
 Quaternion normalized(const Quaternion& q) {
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   return {q.x / norm, q.y / norm, q.z / norm, q.w / norm};
+}
+
+Quaternion product(const Quaternion& a, const Quaternion& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 Quaternion slerp(const Quaternion& from, const Quaternion& to, double share) {
@@ -21,8 +25,6 @@ Quaternion slerp(const Quaternion& from, const Quaternion& to, double share) {
   return normalized(
       {a * from.x + b * to.x, a * from.y + b * to.y, a * from.z + b * to.z, a * from.w + b * to.w});
 }
-
-}  // namespace
 
 Quaternion quaternion_of(const cv::Matx33d& r) {
   // Shepperd 1978: start from the largest of the four, so that nothing is divided by a small number.
@@ -47,23 +49,13 @@ cv::Matx33d rotation_of(const Quaternion& q) {
           2 * (q.x * q.z - q.y * q.w),     2 * (q.y * q.z + q.x * q.w),     1 - 2 * (q.x * q.x + q.y * q.y)};
 }
 
-cv::Matx33d rotation_about(const cv::Vec3d& v) {
+Quaternion quaternion_about(const cv::Vec3d& v) {
   const double angle = std::sqrt(v.dot(v));
-  if (angle < 1e-12) return cv::Matx33d::eye();
+  if (angle < 1e-12) return {};
   const double s = std::sin(angle / 2) / angle;
-  return rotation_of({s * v[0], s * v[1], s * v[2], std::cos(angle / 2)});
+  return {s * v[0], s * v[1], s * v[2], std::cos(angle / 2)};
 }
 
-Pose interpolate(std::span<const TimedPose> poses, std::int64_t t_us) {
-  const auto is_before = [t_us](const TimedPose& p) { return p.t_us <= t_us; };
-  const auto next = std::partition_point(poses.begin(), poses.end(), is_before);
-  if (next == poses.begin()) return poses.front().pose;
-  if (next == poses.end()) return poses.back().pose;
-  const TimedPose& a = *(next - 1);
-  const TimedPose& b = *next;
-  const double share = static_cast<double>(t_us - a.t_us) / static_cast<double>(b.t_us - a.t_us);
-  const Quaternion q = slerp(quaternion_of(a.pose.rotation), quaternion_of(b.pose.rotation), share);
-  return {rotation_of(q), a.pose.position + share * (b.pose.position - a.pose.position)};
-}
+cv::Matx33d rotation_about(const cv::Vec3d& v) { return rotation_of(quaternion_about(v)); }
 
 }  // namespace esi
