@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <thread>
 
 #include "cli_docs.hpp"
 #include "esi/core/error.hpp"
@@ -102,6 +103,17 @@ void TableFlags::apply() {
     if (flag.flag->count() == 0) continue;
     flag.option.set_text(flag.option.is_switch() ? (flag.state ? "true" : "false") : flag.text);
   }
+}
+
+RunningFlags::RunningFlags() : threads(std::max(1U, std::thread::hardware_concurrency())) {}
+
+void RunningFlags::add(CLI::App& app) {
+  app.add_option("--threads", threads, "threads; they make no difference to the result")
+      ->type_name("N")
+      ->group(kGroup);
+  app.add_flag("--quiet", quiet, "no progress and no summary")->group(kGroup);
+  app.add_flag("--print-config", print_config, "print the merged options as a config, and end")
+      ->group(kGroup);
 }
 
 bool parse(CLI::App& app, int argc, const char* const* argv, int& exit_code) {

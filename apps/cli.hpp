@@ -59,6 +59,17 @@ class TableFlags {
   std::list<Flag> flags_;  // CLI11 keeps pointers to text and state
 };
 
+/// The flags of tools that do one job.
+struct RunningFlags {
+  RunningFlags();
+  void add(CLI::App& app);
+
+  std::int64_t threads;  ///< as given; checked_threads() judges it
+  bool quiet = false;
+  bool print_config = false;
+  static constexpr const char* kGroup = "Running";  ///< in --help
+};
+
 /// Parses; prints --help and --version. Returns true when the tool should go on, else `exit_code` holds 0
 /// or 2.
 bool parse(CLI::App& app, int argc, const char* const* argv, int& exit_code);

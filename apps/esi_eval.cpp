@@ -16,19 +16,19 @@ int run(int argc, char** argv) {
   cli::EvalArguments arguments;
   int exit_code = cli::kDone;
   if (!cli::parse_eval_arguments(argc, argv, arguments, exit_code)) return exit_code;
-  if (arguments.print_config) return fmt::print("{}", json_text(arguments.config.json())), cli::kDone;
+  if (arguments.running.print_config) return fmt::print("{}", json_text(arguments.config.json())), cli::kDone;
 
   arguments.job.tool = kTool;
   EvalReport report;
   {
-    cli::ProgressBar bar(!arguments.quiet);
+    cli::ProgressBar bar(!arguments.running.quiet);
     report = run_job(arguments.job, arguments.config, [&bar](const Progress& p) {
       bar.show(p.events, p.frames, p.t_us, p.fraction);
       return cli::stop_signal() == 0;
     });
   }
   if (report.stopped) return cli::stop_exit_code();
-  if (!arguments.quiet) fmt::print("{}", report.summary);
+  if (!arguments.running.quiet) fmt::print("{}", report.summary);
   for (const std::string& sentence : report.missed) cli::say(kTool, sentence);
   if (report.has_losses) cli::say(kTool, "part of the input was left out: " + report.losses);
   if (!report.missed.empty()) return cli::kRequirementMissed;

@@ -20,7 +20,7 @@ std::string summary_line(const SimReport& report, const std::string& output) {
 }
 
 SimReport simulate(const cli::SimArguments& arguments) {
-  cli::ProgressBar bar(!arguments.quiet);
+  cli::ProgressBar bar(!arguments.running.quiet);
   return run_job({arguments.output, arguments.threads, kTool}, arguments.config, [&bar](const Progress& p) {
     bar.show(p.events, p.frames, p.t_us, p.fraction);
     return cli::stop_signal() == 0;
@@ -31,11 +31,11 @@ int run(int argc, char** argv) {
   cli::SimArguments arguments;
   int exit_code = cli::kDone;
   if (!cli::parse_sim_arguments(argc, argv, arguments, exit_code)) return exit_code;
-  if (arguments.print_config) return fmt::print("{}", json_text(arguments.config.json())), cli::kDone;
+  if (arguments.running.print_config) return fmt::print("{}", json_text(arguments.config.json())), cli::kDone;
 
   const SimReport report = simulate(arguments);
   if (report.stopped) return cli::stop_exit_code();
-  if (!arguments.quiet) cli::say(kTool, summary_line(report, arguments.output));
+  if (!arguments.running.quiet) cli::say(kTool, summary_line(report, arguments.output));
   return cli::kDone;
 }
 

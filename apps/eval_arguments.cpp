@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <thread>
 #include <vector>
 
-#include "cli.hpp"
 #include "esi/core/error.hpp"
 #include "esi/core/version.hpp"
 #include "esi/io/output/frame_sink.hpp"
@@ -56,7 +53,6 @@ std::vector<EvalInput> inputs_of(const Given& given) {
 
 bool parse_eval_arguments(int argc, const char* const* argv, EvalArguments& arguments, int& exit_code) {
   Given given;
-  std::int64_t threads = std::max(1U, std::thread::hardware_concurrency());
 
   CLI::App app("what reconstructed images are worth, by the AprilTags found in them", "esi-eval");
   app.set_version_flag("--version", fmt::format("esi-eval {}", version()));
@@ -82,26 +78,20 @@ bool parse_eval_arguments(int argc, const char* const* argv, EvalArguments& argu
       ->allow_extra_args(false);
   TableFlags flags;
   for (auto& group : arguments.config.groups()) flags.add(app, std::move(group.table), group.title);
-  const std::string running = "Running";
-  app.add_option("--threads", threads, "threads; they make no difference to the result")
-      ->type_name("N")
-      ->group(running);
+  arguments.running.add(app);
   app.add_flag("--force", arguments.job.force, "replace an older report in the output folder")
-      ->group(running);
-  app.add_flag("--quiet", arguments.quiet, "no progress and no summary")->group(running);
-  app.add_flag("--print-config", arguments.print_config, "print the merged options as a config, and end")
-      ->group(running);
+      ->group(RunningFlags::kGroup);
   if (!parse(app, argc, argv, exit_code)) return false;
 
   for (const std::string& file : given.config_files) arguments.config.load(file);
   for (const std::string& method : given.methods) arguments.config.add_method(method);
   flags.apply();
   arguments.config.check();
-  arguments.job.threads = checked_threads("--threads", threads);
+  arguments.job.threads = checked_threads("--threads", arguments.running.threads);
   for (const std::string& text : given.requirements) {
     arguments.job.requirements.push_back(parse_requirement(text));
   }
-  if (arguments.print_config) return true;
+  if (arguments.running.print_config) return true;
   arguments.job.inputs = inputs_of(given);
   if (given.output.empty()) throw usage_error("say with -o into which folder the report shall go");
   if (given.output == "-" || !means_folder(given.output)) {

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "cli.hpp"
+
 #include "esi/pipeline/eval_job.hpp"
 
 namespace esi::cli {
@@ -10,8 +12,7 @@ namespace esi::cli {
 struct EvalArguments {
   EvalJob job;
   EvalConfig config;
-  bool quiet = false;
-  bool print_config = false;
+  RunningFlags running;
 };
 
 /// Fills `arguments`. Returns true when the tool should go on, else `exit_code` holds 0 or 2.

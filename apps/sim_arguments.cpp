@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <thread>
 #include <vector>
 
-#include "cli.hpp"
 #include "esi/core/error.hpp"
 #include "esi/core/version.hpp"
 #include "esi/io/output/frame_sink.hpp"
@@ -25,7 +22,6 @@ void require_folder(const std::string& output) {
 
 bool parse_sim_arguments(int argc, const char* const* argv, SimArguments& arguments, int& exit_code) {
   std::vector<std::string> config_files, settings;
-  std::int64_t threads = std::max(1U, std::thread::hardware_concurrency());
 
   CLI::App app("simulated event recordings, with all that is true of them", "esi-sim");
   app.set_version_flag("--version", fmt::format("esi-sim {}", version()));
@@ -38,20 +34,14 @@ bool parse_sim_arguments(int argc, const char* const* argv, SimArguments& argume
       ->allow_extra_args(false);
   TableFlags flags;
   for (auto& group : arguments.config.groups()) flags.add(app, std::move(group.table), group.title);
-  const std::string running = "Running";
-  app.add_option("--threads", threads, "threads; they make no difference to the result")
-      ->type_name("N")
-      ->group(running);
-  app.add_flag("--quiet", arguments.quiet, "no progress and no summary")->group(running);
-  app.add_flag("--print-config", arguments.print_config, "print the merged options as a config, and end")
-      ->group(running);
+  arguments.running.add(app);
   if (!parse(app, argc, argv, exit_code)) return false;
 
   for (const std::string& file : config_files) arguments.config.load(file);
   for (const std::string& setting : settings) arguments.config.set(setting);
   flags.apply();
-  arguments.threads = checked_threads("--threads", threads);
-  if (!arguments.print_config) require_folder(arguments.output);
+  arguments.threads = checked_threads("--threads", arguments.running.threads);
+  if (!arguments.running.print_config) require_folder(arguments.output);
   return true;
 }
 

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "cli.hpp"
+
 #include "esi/pipeline/sim_config.hpp"
 
 namespace esi::cli {
@@ -11,8 +13,7 @@ struct SimArguments {
   SimConfig config;
   std::string output;
   int threads = 1;
-  bool quiet = false;
-  bool print_config = false;
+  RunningFlags running;
 };
 
 /// Fills `arguments`. Returns true when the tool should go on, else `exit_code` holds 0 or 2.

@@ -108,6 +108,12 @@ class OptionTable {
   std::vector<Option> options_;
 };
 
+/// Options that belong together, for flags and --help.
+struct OptionGroup {
+  std::string title;
+  OptionTable table;
+};
+
 /// The table of a struct that has `void declare(OptionTable&)`.
 template <class Options>
 OptionTable table_of(Options& options) {

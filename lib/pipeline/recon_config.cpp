@@ -54,11 +54,11 @@ nlohmann::json ReconConfig::json() const {
   copy_of_plain_options.steps = steps;
   copy_of_plain_options.sink = sink;
   nlohmann::json config = {{"method", method_->name}, {"set", method_config_->options().json()}};
-  for (const Group& group : copy_of_plain_options.groups()) config.update(group.table.json());
+  for (const OptionGroup& group : copy_of_plain_options.groups()) config.update(group.table.json());
   return config;
 }
 
-std::vector<ReconConfig::Group> ReconConfig::groups() {
+std::vector<OptionGroup> ReconConfig::groups() {
   return {{"Input", table_of(read)},
           {"Frames", table_of(frames)},
           {"Steps", table_of(steps)},

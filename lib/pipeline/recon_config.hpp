@@ -39,11 +39,7 @@ class ReconConfig {
   nlohmann::json json() const;
 
   /// The options besides the method's, by group, for flags and --help.
-  struct Group {
-    std::string title;
-    OptionTable table;
-  };
-  std::vector<Group> groups();
+  std::vector<OptionGroup> groups();
 
  private:
   const Method* method_;

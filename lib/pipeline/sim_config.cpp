@@ -92,7 +92,7 @@ nlohmann::json SimConfig::json() const {
   return table.json();
 }
 
-std::vector<SimConfig::Group> SimConfig::groups() {
+std::vector<OptionGroup> SimConfig::groups() {
   OptionTable whole;
   sim.declare_own(whole);
   return {{"Simulation", whole},

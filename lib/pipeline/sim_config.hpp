@@ -43,11 +43,7 @@ struct SimConfig {
   nlohmann::json json() const;
 
   /// The options by group, for flags and --help. They point into this object.
-  struct Group {
-    std::string title;
-    OptionTable table;
-  };
-  std::vector<Group> groups();
+  std::vector<OptionGroup> groups();
 
  private:
   void declare(OptionTable& table);

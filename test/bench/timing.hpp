@@ -1,25 +1,19 @@
 #pragma once
 
-#include <time.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
+#include "esi/core/cpu_time.hpp"
+
 namespace esi::bench {
 
-/// What this thread has used, so that others on the machine don't count.
-inline double cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
+/// Processor time of this thread.
 inline double seconds(const std::function<void()>& work) {
-  const double begin_s = cpu_s();
+  const double begin_s = thread_cpu_s();
   work();
-  return cpu_s() - begin_s;
+  return thread_cpu_s() - begin_s;
 }
 
 inline double median(std::vector<double> values) {

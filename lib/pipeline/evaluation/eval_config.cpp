@@ -179,7 +179,7 @@ FrameOptions EvalConfig::frames_of(const EvalMethod& method) const {
   return has_own ? with_schedule_of(frames, method.config.frames) : frames;
 }
 
-std::vector<ReconConfig::Group> EvalConfig::groups() {
+std::vector<OptionGroup> EvalConfig::groups() {
   return {{"Input", table_of(read)},         {"Frames", table_of(frames)},
           {"Detection", table_of(detector)}, {"Score", table_of(score)},
           {"Judging", table_of(judging)},    {"Tracking", table_of(tracking)},

@@ -57,7 +57,7 @@ class EvalConfig {
   /// The frames of a method: its own where its config says when they are due, else everybody's.
   FrameOptions frames_of(const EvalMethod& method) const;
 
-  std::vector<ReconConfig::Group> groups();
+  std::vector<OptionGroup> groups();
 
  private:
   void add(EvalMethod method);

@@ -7,7 +7,7 @@
 
 #include "esi/core/error.hpp"
 #include "esi/io/picture_list.hpp"
-#include "esi/pipeline/cpu_time.hpp"
+#include "esi/core/cpu_time.hpp"
 
 namespace esi {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "esi/pipeline/cpu_time.hpp"
+#include "esi/core/cpu_time.hpp"
 #include "esi/recon/reconstructor.hpp"
 
 namespace esi {
