@@ -1,12 +1,8 @@
 // What the real esi-eval writes, against counts of its own.
-#include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <pugixml.hpp>
-#include <set>
 
-#include "apps/eval_command.hpp"
+#include "apps/eval_count.hpp"
 #include "support/folder_digest.hpp"
 
 using namespace esi::test;
@@ -15,80 +11,6 @@ using Catch::Matchers::Contains;
 using nlohmann::json;
 
 namespace {
-
-using Row = std::map<std::string, std::string>;
-
-/// Four corners a tag has in corners.csv at exactly that time; nothing where it has no row.
-using Truth = std::map<std::pair<std::int64_t, std::string>, std::array<double, 8>>;
-
-Truth true_corners(const fs::path& file) {
-  Truth truth;
-  for (const Row& row : csv_rows(file)) {
-    auto& corners = truth[{std::llround(1e6 * std::stod(row.at("t_s"))), row.at("id")}];
-    for (std::size_t k = 0; k < 8; ++k) {
-      corners[k] = std::stod(row.at((k % 2 == 0 ? "x" : "y") + std::to_string(k / 2 + 1)));
-    }
-  }
-  return truth;
-}
-
-/// Whether all four corners lie within 5 px of the truth, in any of the four rotations.
-bool is_in_place(const Row& row, const std::array<double, 8>& truth) {
-  for (std::size_t turn = 0; turn < 4; ++turn) {
-    double farthest = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t other = 2 * ((k + turn) % 4);
-      const std::string n = std::to_string(k + 1);
-      farthest = std::max(farthest, std::hypot(std::stod(row.at("x" + n)) - truth[other],
-                                               std::stod(row.at("y" + n)) - truth[other + 1]));
-    }
-    if (farthest <= 5.0) return true;
-  }
-  return false;
-}
-
-struct Counts {
-  int frames = 0, detected = 0, wrong = 0;
-  bool operator==(const Counts&) const = default;
-};
-using CountsByPhase = std::map<std::array<std::string, 3>, Counts>;
-
-/// Frames by the truth's phases, detections by its corners.
-CountsByPhase counted(const fs::path& out, const fs::path& flight_folder) {
-  const json phases = json::parse(content_of(flight_folder / "ground_truth.json"))["phases"];
-  const Truth truth = true_corners(flight_folder / "corners.csv");
-  const auto phase_at = [&](std::int64_t t_us) -> std::string {
-    for (const json& phase : phases) {
-      const auto t_s = 1e-6 * static_cast<double>(t_us);
-      if (phase["start_s"] <= t_s && t_s < phase["end_s"].get<double>()) return phase["name"];
-    }
-    return {};
-  };
-  std::set<std::array<std::string, 3>> found;
-  CountsByPhase counts;
-  for (const Row& row : csv_rows(out / "detections.csv")) {
-    const std::int64_t t_us = std::stoll(row.at("t_us"));
-    const std::string phase = phase_at(t_us);
-    if (phase.empty()) continue;
-    const auto corners = truth.find({t_us, row.at("id")});
-    if (corners != truth.end() && is_in_place(row, corners->second)) {
-      found.insert({row.at("input"), row.at("method"), row.at("frame")});
-    } else {
-      ++counts[{row.at("input"), row.at("method"), phase}].wrong;
-    }
-  }
-  for (const Row& row : csv_rows(out / "frames.csv")) {
-    const std::string phase = phase_at(std::stoll(row.at("t_us")));
-    const bool is_found = found.count({row.at("input"), row.at("method"), row.at("frame")}) > 0;
-    CHECK(row.at("phase") == phase);
-    CHECK(row.at("detected") == (is_found && !phase.empty() ? "1" : "0"));
-    if (phase.empty()) continue;
-    Counts& count = counts[{row.at("input"), row.at("method"), phase}];
-    ++count.frames;
-    count.detected += is_found ? 1 : 0;
-  }
-  return counts;
-}
 
 std::int64_t number(const json& value) { return value.get<std::int64_t>(); }
 
@@ -237,114 +159,4 @@ TEST_CASE("a folder of frames that esi-recon made scores as the recording itself
   REQUIRE(rows.size() == 10);
   CHECK(rows.front().at("t_us") == "500000");
   CHECK(rows.back().at("t_us") == "590000");
-}
-
-TEST_CASE("intervals alone are enough of a truth: every id of the family counts") {
-  const TempFolder folder;
-  const auto truth =
-      folder.write("truth.json", R"({"phases": [{"name": "a", "start_s": 1.0, "end_s": 1.3}]})");
-  const auto result = evaluate(
-      folder / "out", quoted(flight()) + " --size 128x96 --end 1.5 --method esi -g " + quoted(truth));
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-  const Row row = csv_rows(folder / "out" / "table.csv").at(0);
-  CHECK(row.at("frames") == "30");
-  CHECK(row.at("corner_error_mean_px").empty());
-  std::set<std::string> frames;
-  for (const Row& tag : csv_rows(folder / "out" / "detections.csv")) {
-    const int t_us = std::stoi(tag.at("t_us"));
-    if (1'000'000 <= t_us && t_us < 1'300'000) frames.insert(tag.at("frame"));
-  }
-  CHECK(row.at("detected") == std::to_string(frames.size()));
-  CHECK(frames.size() > 5);
-
-  // Ids that are given are expected, all else is false.
-  REQUIRE(evaluate(folder / "other",
-                   quoted(flight()) + " --size 128x96 --end 1.5 --ids 5 --method esi -g " + quoted(truth))
-              .exit_code == 0);
-  const Row other = csv_rows(folder / "other" / "table.csv").at(0);
-  CHECK(other.at("detected") == "0");
-  CHECK(std::stoi(other.at("false_foreign")) >= static_cast<int>(frames.size()));
-}
-
-TEST_CASE("several recordings are scored each and together") {
-  const TempFolder folder;
-  const auto result = run_shell(eval() + " " + quoted(flight()) + " " + quoted(flight_start()) +
-                                " --end 0.4 --method esi --method accumulator -o " + quoted(folder / "out"));
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-  CHECK_THAT(result.out, Contains("all") && !Contains("events.h5"));
-  std::map<std::string, std::array<int, 3>> totals;  // frames by input, of esi
-  for (const Row& row : csv_rows(folder / "out" / "table.csv")) {
-    if (row.at("phase") != "straight" || row.at("method") != "esi") continue;
-    totals[row.at("input")] = {std::stoi(row.at("frames")), std::stoi(row.at("detected")),
-                               std::stoi(row.at("tags_found"))};
-  }
-  REQUIRE(totals.size() == 3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    CHECK(totals["all"][i] == totals[flight().string()][i] + totals[flight_start().string()][i]);
-  }
-  CHECK(totals[flight_start().string()][0] == 19);  // the frame at 0.2 s is in no phase
-  const json report = report_of(folder / "out");
-  CHECK(report["inputs"].size() == 2);
-  CHECK(report["results"].size() == 3);
-  CHECK(fs::exists(folder / "out" / "track_1_1.tum"));
-  CHECK(fs::exists(folder / "out" / "truth_1.tum"));
-  check_page(folder / "out" / "report.html");
-}
-
-TEST_CASE("a method with frames of its own times has a base of its own") {
-  const TempFolder folder;
-  const auto edi = source_dir() / "configs/recon/edi.json";
-  const auto result =
-      evaluate(folder / "out", quoted(flight_start()) + " --method esi --method " + quoted(edi));
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-  std::map<std::string, int> frames;
-  for (const Row& row : csv_rows(folder / "out" / "cost.csv")) {
-    frames[row.at("method")] = std::stoi(row.at("frames"));
-  }
-  CHECK(frames == std::map<std::string, int>{{"esi", 20}, {"edi", 2}});
-}
-
-TEST_CASE("names of phases and methods mean themselves in every file") {
-  const std::string evil = "a,\"b\" _&%$# \n<script>alert(1)</script> \\|";
-  const TempFolder folder;
-  const auto truth =
-      folder.write("truth.json", json{{"phases", {{{"name", evil}, {"start_s", 0}, {"end_s", 0.3}}}}}.dump());
-  const auto config =
-      folder.write("config.json", json{{"methods", {{{"label", evil}, {"method", "esi"}}}}}.dump());
-  const auto result = evaluate(
-      folder / "out", quoted(flight_start()) + " --config " + quoted(config) + " -g " + quoted(truth));
-  CAPTURE(result.err);
-  REQUIRE(result.exit_code == 0);
-  for (const char* const name : {"table.csv", "frames.csv"}) {
-    const Row row = csv_rows(folder / "out" / name).at(0);
-    CHECK(row.at("method") == evil);
-    CHECK(row.at("phase") == evil);
-  }
-  CHECK(report_of(folder / "out")["results"][0]["methods"][0]["phases"][0]["name"] == evil);
-  check_page(folder / "out" / "report.html");
-  const std::string markdown = content_of(folder / "out" / "table.md");
-  CHECK(std::count(markdown.begin(), markdown.end(), '\n') == 6);  // caption, table of one row, blanks
-  CHECK_THAT(markdown, Contains("&lt;script&gt;") && Contains("\\|"));
-  CHECK_THAT(content_of(folder / "out" / "table.tex"),
-             Contains("\\_\\&\\%\\$\\#") && !Contains("<script>") && Contains("\\textbackslash{}|"));
-}
-
-TEST_CASE("a printed config makes the same report") {
-  const TempFolder folder;
-  const std::string options = " --method esi --stride 2 --fps 50 --no-tracking";
-  const auto printed = run_shell(eval() + options + " --print-config");
-  REQUIRE(printed.exit_code == 0);
-  const auto config = folder.write("config.json", printed.out);
-  const auto again = run_shell(eval() + " --config " + quoted(config) + " --print-config");
-  CHECK(again.out == printed.out);
-  REQUIRE(evaluate(folder / "a", quoted(flight_start()) + options).exit_code == 0);
-  REQUIRE(evaluate(folder / "b", quoted(flight_start()) + " --config " + quoted(config)).exit_code == 0);
-  for (const char* const name : {"table.csv", "frames.csv", "detections.csv"}) {
-    CHECK((content_of(folder / "a" / name) == content_of(folder / "b" / name)));
-  }
-  CHECK(csv_rows(folder / "a" / "frames.csv").size() == 5);
-  CHECK_FALSE(fs::exists(folder / "a" / "truth_0.tum"));
 }

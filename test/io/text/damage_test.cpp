@@ -1,33 +1,12 @@
 // What contract.md lists under "Bad input: Text".
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "esi/core/error.hpp"
-#include "io/text/read_text.hpp"
+#include "io/text/damaged_text.hpp"
 
 namespace esi::test {
 namespace {
-
-// `count` good lines, 1 ms apart from t = 0 on, one of them in every way the fast path knows.
-std::string good_lines(int count) {
-  std::string text;
-  for (int i = 0; i < count; ++i)
-    text += fmt::format("{}.{:03} {} {} {}\n", i / 1000, i % 1000, i % 346, i % 260, i % 2);
-  return text;
-}
-
-std::string message_of(std::string_view text, const ReadOptions& options = {}) {
-  try {
-    const TextContent content = read_text(text, options);
-    return fmt::format("no error, but {} events", content.events.size());
-  } catch (const Error& error) {
-    CHECK(error.kind() == Error::Kind::failure);
-    return error.what();
-  }
-}
 
 ReadOptions tolerant() {
   ReadOptions options;
@@ -200,46 +179,6 @@ TEST_CASE("A text that cannot be read is an error that says what, where and what
   for (const char* const part : row.parts) CHECK_THAT(message, Catch::Contains(part));
 }
 
-TEST_CASE("A unit that makes a recording implausibly long or short is an error that suggests another") {
-  struct Row {
-    const char* text;
-    std::vector<const char*> parts;
-  };
-  const Row row = GENERATE(values<Row>({
-      {"0.0 1 2 1\n950400.0 1 2 0\n", {"up to line 2 it lasts 11.0 days", "in seconds", "perhaps us"}},
-      {"1000000.0 1 2 1\n2000000.0 1 2 0\n", {"11.6 days"}},
-      {"0 1 2 1\n100000000000 1 2 0\n", {"1.2 days", "in microseconds", "--time-unit, perhaps ns"}},
-      {"86400000001 1 2 0\n0 1 2 1\n", {"1.0 days"}},
-      {"0 1 2 1\n999 1 2 0\n", {"lasts only 999 us", "in microseconds", "--time-unit (s, ms, us or ns)"}},
-      {"0.1 1 2 1\n0.100005 1 2 0\n", {"lasts only 5 us", "in seconds"}},
-      {"5 1 2 1\n1 1 2 0\n", {"lasts only 4 us"}},
-  }));
-  INFO(row.text);
-  const std::string message = message_of(row.text);
-  for (const char* const part : row.parts) CHECK_THAT(message, Catch::Contains(part));
-
-  // Whoever gives the unit means it.
-  for (const auto unit :
-       {TimeUnit::seconds, TimeUnit::milliseconds, TimeUnit::microseconds, TimeUnit::nanoseconds}) {
-    CHECK(read_text(row.text, in_unit(unit)).events.size() == 2);
-  }
-}
-
-TEST_CASE("A recording of a day, of a millisecond, of one event or at one time is plausible") {
-  const auto [text, events] = GENERATE(table<const char*, std::size_t>({
-      {"0 1 2 1\n86400000000 1 2 0\n", 2},
-      {"0 1 2 1\n1000 1 2 0\n", 2},
-      {"0 1 2 1\n", 1},
-      {"1744227144.732712 1 2 1", 1},
-      {"77 1 2 1\n77 1 2 1\n77 9 2 0\n", 3},
-      {"1744227144.732712 1 2 1\n1744227145.732712 1 2 1", 2},
-      {"-0.5 1 2 1\n0.5 1 2 1", 2},
-      {"t_us,x,y,p\n1,1,2,1\n2,1,2,0\n", 2},
-  }));
-  INFO(text);
-  CHECK(read_text(text).events.size() == events);
-}
-
 TEST_CASE("Whatever a text has been through, it gives events or an error") {
   const std::vector<std::string> texts = {
       "346 260\n" + good_lines(30),
@@ -286,21 +225,6 @@ TEST_CASE("Whatever a text has been through, it gives events or an error") {
     }
   }
   CHECK(readable > 1000);
-}
-
-TEST_CASE("Times that stop being whole microseconds are no silent change of unit") {
-  std::string text;
-  for (int i = 0; i < 50000; ++i) text += fmt::format("{} 1 2 1\n", 1000 * i);
-  CHECK_THAT(message_of(text + good_lines(1000)),
-             Catch::Contains("1000 of 51000 lines cannot be read, the first at line 50001 "
-                             "'0.000 0 0 0': its time is not a whole number"));
-}
-
-TEST_CASE("Ones that turn out to be OFF are not silently taken as ON") {
-  std::string text;
-  for (int i = 0; i < 30000; ++i) text += fmt::format("{} 1 2 1\n", 1000 * i);
-  for (int i = 30000; i < 60000; ++i) text += fmt::format("{} 1 2 2\n", 1000 * i);
-  CHECK_THAT(message_of(text), Catch::Contains("--polarity 1/2"));
 }
 
 }  // namespace esi::test
