@@ -8,13 +8,13 @@
 #include "eval/tag_scene.hpp"
 
 using namespace esi;
-using esi::test::rotation_about;
+using esi::test::rodrigues;
 using esi::test::track_pose;
 
 namespace {
 
 TrackPose pose(std::int64_t t_us, double x, const cv::Vec3d& turn) {
-  return track_pose(t_us, {rotation_about(turn), {x, 1, 2}});
+  return track_pose(t_us, {rodrigues(turn), {x, 1, 2}});
 }
 
 double angle_between(const Pose& a, const cv::Matx33d& rotation) {
@@ -30,10 +30,10 @@ TEST_CASE("Between poses position goes straight and rotation about one axis") {
       {pose(0, 0, {0, 0, 0}), pose(100'000, 4, {0, 0, 1.2}), pose(200'000, 0, {0, 0.001, 1.2})});
   CHECK(angle_between(*track.at(0), cv::Matx33d::eye()) < 1e-9);
   CHECK(track.at(25'000)->position_m == cv::Vec3d(1, 1, 2));
-  CHECK(angle_between(*track.at(25'000), rotation_about({0, 0, 0.3})) < 1e-9);
+  CHECK(angle_between(*track.at(25'000), rodrigues({0, 0, 0.3})) < 1e-9);
   CHECK(track.at(100'000)->position_m[0] == 4.0);
   CHECK(track.at(150'000)->position_m[0] == Approx(2.0));
-  CHECK(angle_between(*track.at(150'000), rotation_about({0, 0.0005, 1.2})) < 1e-6);
+  CHECK(angle_between(*track.at(150'000), rodrigues({0, 0.0005, 1.2})) < 1e-6);
 }
 
 TEST_CASE("The shorter way is taken, whatever the quaternion's sign and length") {
@@ -41,7 +41,7 @@ TEST_CASE("The shorter way is taken, whatever the quaternion's sign and length")
   for (double& part : end.quaternion_xyzw) part *= -3.0;
   const PoseTrack track({pose(0, 0, {0, 0, -0.4}), end});
   CHECK(angle_between(*track.at(50'000), cv::Matx33d::eye()) < 1e-9);
-  CHECK(angle_between(*track.at(100'000), rotation_about({0, 0, 0.4})) < 1e-9);
+  CHECK(angle_between(*track.at(100'000), rodrigues({0, 0, 0.4})) < 1e-9);
 }
 
 TEST_CASE("Poses outside a track, in its gaps, and in no order") {

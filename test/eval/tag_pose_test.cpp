@@ -8,7 +8,7 @@
 
 using namespace esi;
 using esi::test::kCamera;
-using esi::test::rotation_about;
+using esi::test::rodrigues;
 using esi::test::tag_corners;
 using esi::test::track_pose;
 
@@ -18,7 +18,7 @@ TEST_CASE("A tag is where its corners were projected from") {
   for (const CameraModel& camera : {kCamera, bent}) {
     for (const cv::Vec3d& turn :
          {cv::Vec3d(0.4, -0.3, 2.0), cv::Vec3d(-0.5, 0.1, -1.0), cv::Vec3d(0, 0.6, 0)}) {
-      const Pose truth{rotation_about(turn), {0.3, -0.2, 1.5}};
+      const Pose truth{rodrigues(turn), {0.3, -0.2, 1.5}};
       const auto found = estimate_tag_pose(tag_corners(truth, 0.36, camera), 0.36, camera);
       REQUIRE(found);
       CHECK(cv::norm(found->pose.position_m - truth.position_m) < 1e-4);
@@ -59,8 +59,8 @@ TEST_CASE("Where the tags sit on the target is found from the truth") {
   std::vector<TrueCorners> rows;
   for (int k = 0; k <= 20; ++k) {
     const std::int64_t t_us = 10'000 * k;
-    const Pose camera{rotation_about({3.0 + 0.01 * k, 0.2, 0.1}), {0.02 * k, 0.1, 1.5}};
-    const Pose target{rotation_about({3.1, 0.0, 0.02 * k}), {0.01 * k, 0.0, 0.3}};
+    const Pose camera{rodrigues({3.0 + 0.01 * k, 0.2, 0.1}), {0.02 * k, 0.1, 1.5}};
+    const Pose target{rodrigues({3.1, 0.0, 0.02 * k}), {0.01 * k, 0.0, 0.3}};
     camera_poses.push_back(track_pose(t_us, camera));
     target_poses.push_back(track_pose(t_us, target));
     for (const int id : {0, 1, 2}) {

@@ -12,7 +12,8 @@ namespace esi::test {
 
 inline const CameraModel kCamera{346, 260, 206.0, 206.0, 172.5, 129.5, {}};
 
-inline cv::Matx33d rotation_about(const cv::Vec3d& v) {
+/// By OpenCV, not by the code under test.
+inline cv::Matx33d rodrigues(const cv::Vec3d& v) {
   cv::Matx33d rotation;
   cv::Rodrigues(v, rotation);
   return rotation;

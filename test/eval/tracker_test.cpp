@@ -10,13 +10,13 @@
 
 using namespace esi;
 using esi::test::kCamera;
-using esi::test::rotation_about;
+using esi::test::rodrigues;
 using Outcome = Tracker::Outcome;
 
 namespace {
 
 /// Looks down from 3 m.
-Pose camera_at(double x) { return {rotation_about({3.0, 0.1, -0.2}), {x, 0.2, 3.0}}; }
+Pose camera_at(double x) { return {rodrigues({3.0, 0.1, -0.2}), {x, 0.2, 3.0}}; }
 
 TargetMeasurement measure(const cv::Vec3d& world_m, const Pose& camera, double depth_noise_m = 0.03) {
   const cv::Vec3d uvd = project(world_m, camera, kCamera)->uvd;
@@ -59,7 +59,7 @@ TEST_CASE("The projection's derivative is the numerical one") {
 
 TEST_CASE("A projected point is where OpenCV puts it") {
   const Pose camera = camera_at(0.3);
-  const Pose tag = camera.inverse() * Pose{rotation_about({3.1, 0, 0}), {0.4, -0.1, 0.2}};
+  const Pose tag = camera.inverse() * Pose{rodrigues({3.1, 0, 0}), {0.4, -0.1, 0.2}};
   const auto corners = esi::test::tag_corners(tag, 1e-6);
   const cv::Vec3d uvd = project({0.4, -0.1, 0.2}, camera, kCamera)->uvd;
   CHECK(uvd[0] == Approx(corners[0]).margin(1e-3));

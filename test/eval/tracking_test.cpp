@@ -7,7 +7,7 @@
 
 using namespace esi;
 using esi::test::kCamera;
-using esi::test::rotation_about;
+using esi::test::rodrigues;
 using esi::test::tag_corners;
 using esi::test::track_pose;
 
@@ -23,8 +23,8 @@ struct Chase {
     for (int k = 0; k <= 400; ++k) {
       const std::int64_t t_us = 10'000 * k;
       const double t_s = 0.01 * k;
-      const Pose eye{rotation_about({3.0, 0.15 * std::sin(t_s), 0.2}), {0.9 * t_s, 0.1, 2.0}};
-      const Pose board{rotation_about({3.1, 0.3 * t_s, 0}), {t_s, 0.2 * std::sin(t_s), 0.3}};
+      const Pose eye{rodrigues({3.0, 0.15 * std::sin(t_s), 0.2}), {0.9 * t_s, 0.1, 2.0}};
+      const Pose board{rodrigues({3.1, 0.3 * t_s, 0}), {t_s, 0.2 * std::sin(t_s), 0.3}};
       camera.push_back(track_pose(t_us, eye));
       target.push_back(track_pose(t_us, board));
       FrameDetections frame{k, t_us, {}};
@@ -68,7 +68,7 @@ TEST_CASE("A target is followed by its tags, each at its place on it") {
 }
 
 TEST_CASE("A tag measures the target's origin, its depth the less surely the further away") {
-  const Pose target{rotation_about({0.3, -0.2, 0.4}), {0.2, 0.1, 2.0}};
+  const Pose target{rodrigues({0.3, -0.2, 0.4}), {0.2, 0.1, 2.0}};
   const TargetTag tag{0.36, {-0.1, 0.02, 0}};
   const Pose seen{target.rotation, target * tag.centre_m};
   Detection detection{0, 0, 50, {}, tag_corners(seen, tag.size_m)};
