@@ -1,8 +1,8 @@
 // What esi-eval makes of different recordings, truths and configs.
 #include <catch2/catch.hpp>
-#include <pugixml.hpp>
 
 #include "apps/eval_count.hpp"
+#include "apps/report_page.hpp"
 
 using namespace esi::test;
 namespace fs = std::filesystem;

@@ -1,8 +1,8 @@
 // What the real esi-eval writes, against counts of its own.
 #include <catch2/catch.hpp>
-#include <pugixml.hpp>
 
 #include "apps/eval_count.hpp"
+#include "apps/report_page.hpp"
 #include "support/folder_digest.hpp"
 
 using namespace esi::test;
@@ -13,24 +13,6 @@ using nlohmann::json;
 namespace {
 
 std::int64_t number(const json& value) { return value.get<std::int64_t>(); }
-
-/// The page is well formed, without scripts, and asks for nothing from elsewhere.
-void check_page(const fs::path& file) {
-  const std::string text = content_of(file);
-  pugi::xml_document page;
-  const auto result = page.load_string(text.c_str(), pugi::parse_default | pugi::parse_doctype);
-  INFO(result.description() << " at " << result.offset);
-  REQUIRE(result);
-  CHECK(page.select_nodes("//script | //iframe | //object").empty());
-  for (const auto& node : page.select_nodes("//@src | //@href")) {
-    CHECK(std::string(node.attribute().value()).starts_with("data:"));
-  }
-  CHECK_FALSE(page.select_nodes("//table").empty());
-  CHECK_FALSE(page.select_nodes("//*[local-name()='svg']").empty());
-  CHECK_FALSE(page.select_nodes("//img").empty());
-  CHECK(text.find("@import") == std::string::npos);
-  CHECK(text.find("url(") == std::string::npos);
-}
 
 /// Time ascends, and each line has the eight numbers of a TUM track, with a quaternion of length 1.
 void check_track(const fs::path& file) {

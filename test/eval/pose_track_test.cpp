@@ -13,6 +13,11 @@ using esi::test::track_pose;
 
 namespace {
 
+cv::Matx33d rotation_in(const TrackPose& pose) {
+  const auto& q = pose.quaternion_xyzw;
+  return rotation_of(Quaternion{q[0], q[1], q[2], q[3]});
+}
+
 TrackPose pose(std::int64_t t_us, double x, const cv::Vec3d& turn) {
   return track_pose(t_us, {rodrigues(turn), {x, 1, 2}});
 }
@@ -69,9 +74,7 @@ TEST_CASE("A UAV's own poses are wrong by as much as was asked for, for as long"
   for (std::size_t k = 0; k < truth.size(); ++k) {
     CHECK(noisy[k].t_us == truth[k].t_us);
     cv::Vec3d turn;
-    cv::Rodrigues(rotation_of_quaternion(truth[k].quaternion_xyzw).t() *
-                      rotation_of_quaternion(noisy[k].quaternion_xyzw),
-                  turn);
+    cv::Rodrigues(rotation_in(truth[k]).t() * rotation_in(noisy[k]), turn);
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
       squares[axis] += std::pow(noisy[k].position_m[i] - truth[k].position_m[i], 2) / 20000;
