@@ -112,10 +112,12 @@ TEST_CASE("INT and TERM leave nothing that claims to be complete") {
   const auto [signal, code] = GENERATE(std::pair{"INT", 130}, std::pair{"TERM", 143});
   const TempFolder folder;
   const auto out = folder / "out";
-  // 20 000 frames a second take a minute or so.
+  // 20 000 frames a second take a minute or so. Before the tool catches INT and TERM, the shell's background
+  // jobs ignore INT.
   const auto result =
       run_shell(eval() + " --quiet " + quoted(flight()) + " --fps 20000 --method esi -o " + quoted(out) +
-                " & tool=$!; sleep 0.7; kill -" + signal + " $tool; wait $tool");
+                " & tool=$!; until grep -qs 'SigCgt:.*4002$' /proc/$tool/status; do sleep 0.02; done; " +
+                "sleep 0.3; kill -" + signal + " $tool; wait $tool");
   CAPTURE(result.err);
   CHECK(result.exit_code == code);
   CHECK_FALSE(fs::exists(out / "run.json"));
