@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "esi/core/cpu_time.hpp"
 #include "esi/core/error.hpp"
 #include "esi/io/picture_list.hpp"
-#include "esi/core/cpu_time.hpp"
 
 namespace esi {
 namespace {
