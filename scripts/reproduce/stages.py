@@ -35,7 +35,7 @@ class Run:
         return self.out / where / f"{method}-{where}.json"
 
     def methods_tuned(self):
-        """All, unless the stage was interrupted."""
+        """All, unless the stage was interrupted or left out."""
         return [method for method in tuning.METHODS if self.tuned(method).exists()]
 
     def simulate(self, light, seeds):
@@ -55,15 +55,16 @@ def tune(run):
 
 
 def choose(run, methods, where, recordings, options, truths):
+    """Each method's choice and log are written as soon as its own grid is done."""
     cells = {method: tuning.write_cells(run.out / "cells", method, run.plan.every_cell) for method in methods}
-    run.evaluate_all([(run.report(where, method), recordings, list(cells[method].values()), options, truths)
-                      for method in methods])
-    for method in methods:
-        report = run.report(where, method)
-        best = tuning.best_cell(report)
-        run.tuned(method, where).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(cells[method][best], run.tuned(method, where))
-        tuning.write_log(run.out / where / f"{method}.csv", report, [path.parent.name for path in recordings])
+    parts = {method: tuning.parts_of(list(cells[method].values())) for method in methods}
+    calls = {method: [run.tools.evaluate(run.report(where, method, f"part{i}"), recordings, part,
+                                         tuning.options_of(method, options), truths)
+                      for i, part in enumerate(parts[method])] for method in methods}
+    for method, reports in run.tools.run_groups(calls):
+        log = run.out / where / f"{method}.csv"
+        tuning.write_log(log, reports, [path.parent.name for path in recordings])
+        shutil.copyfile(cells[method][tuning.best_cell(log)], run.tuned(method, where))
 
 
 def score(run):

@@ -185,7 +185,7 @@ def chosen(run, where="tuned"):
     for method in tuning.METHODS:
         log = run.out / where / f"{method}.csv"
         if log.exists():
-            best = tuning.best_cell(run.report(where, method))
+            best = tuning.best_cell(log)
             cells = {row["cell"]: row for row in rows_of(log.parent, log.name)}
             plain = max((row for row in cells.values() if row["cell"].endswith("_filter-plain")),
                         key=lambda row: tuned_rate(row, where))

@@ -42,6 +42,13 @@ class Tools:
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             return [job.result() for job in [pool.submit(self.run, *call) for call in calls]]
 
+    def run_groups(self, groups):
+        """Calls by names, as in run_all(); each name and its outputs as soon as they are all there, in order."""
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            jobs = {name: [pool.submit(self.run, *call) for call in calls] for name, calls in groups.items()}
+            for name, of_group in jobs.items():
+                yield name, [job.result() for job in of_group]
+
     def evaluate(self, output, recordings, methods, options, truths=(), models=()):
         """The call of run() for esi-eval. truths: one per recording, where they aren't beside them."""
         given = [part for method in methods for part in ("--method", method)]

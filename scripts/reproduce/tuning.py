@@ -9,6 +9,7 @@ from .tools import rows_of, write_json
 
 GRIDS = json.loads((pathlib.Path(__file__).parent / "tuning_grids.json").read_text(encoding="utf-8"))
 METHODS = list(GRIDS["methods"])
+CELLS_A_CALL = 8
 
 
 def needs_frames(method):
@@ -38,23 +39,32 @@ def write_cells(folder, method, every):
             for label, config in cells_of(method, every).items()}
 
 
-def best_cell(report):
-    """Of the pooled totals: most detected frames (or tags, where one frame has many), then smaller corner error."""
-    totals = [row for row in rows_of(report) if row["phase"] == "total"]
-    pooled = [row for row in totals if row["input"] == "all"] or totals
+def parts_of(cells):
+    """Cells of one call: a method keeps images and events, `edi` some 170 MB."""
+    return [cells[i:i + CELLS_A_CALL] for i in range(0, len(cells), CELLS_A_CALL)]
 
+
+def options_of(method, options):
+    """A method that makes its frames when intensity frames come has no rate."""
+    if not GRIDS["methods"][method].get("at_frames"):
+        return options
+    at = options.index("--fps")
+    return options[:at] + options[at + 2:]
+
+
+def best_cell(log):
+    """Most detected frames (or tags, where truth has no corners and one frame many tags), then smaller corner error."""
     def rank(row):
         found = int(row["detected"]), int(row["tags_found"])
         return found[::-1] if not row["corner_error_mean_px"] else found, -float(row["corner_error_mean_px"] or 0)
 
-    return max(pooled, key=rank)["method"]
+    return max(rows_of(log.parent, log.name), key=rank)["cell"]
 
 
-def write_log(path, report, flights):
+def write_log(path, reports, flights):
     """A line per cell: rate on each flight and on all, corner error, false tags."""
-    totals = [row for row in rows_of(report) if row["phase"] == "total"]
     cells = {}
-    for row in totals:
+    for row in (row for report in reports for row in rows_of(report) if row["phase"] == "total"):
         cells.setdefault(row["method"], {})[row["input"]] = row
     path.parent.mkdir(parents=True, exist_ok=True)
     with open(path, "w", newline="", encoding="utf-8") as file:

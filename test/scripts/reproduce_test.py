@@ -58,30 +58,47 @@ class Reports(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def report(self, *rows):
-        (self.path / "table.csv").write_text(HEADER + "".join(row + "\n" for row in rows))
-        return self.path
+    def report(self, *rows, name="report"):
+        (self.path / name).mkdir()
+        (self.path / name / "table.csv").write_text(HEADER + "".join(row + "\n" for row in rows))
+        return self.path / name
+
+    def best_of(self, *reports, flights=("f",)):
+        tuning.write_log(self.path / "log.csv", reports, flights)
+        return tuning.best_cell(self.path / "log.csv")
 
     def test_best_cell_is_that_of_all_flights(self):
         report = self.report("f1,a,total,9,10,0.9,9,10,1,0,0,0", "f2,a,total,1,10,0.1,1,10,1,0,0,0",
                              "f1,b,total,6,10,0.6,6,10,1,0,0,0", "f2,b,total,6,10,0.6,6,10,1,0,0,0",
                              "all,a,total,10,20,0.5,10,20,1,0,0,0", "all,b,total,12,20,0.6,12,20,1,0,0,0",
                              "all,a,landing,20,20,1,20,20,1,0,0,0")
-        self.assertEqual(tuning.best_cell(report), "b")
+        self.assertEqual(self.best_of(report, flights=("f1", "f2")), "b")
 
     def test_a_tie_goes_to_the_smaller_corner_error(self):
         report = self.report("f,a,total,9,10,0.9,9,10,1.5,0,0,0", "f,b,total,9,10,0.9,9,10,0.5,0,0,0",
                              "f,c,total,9,10,0.9,9,10,0.7,0,0,0")
-        self.assertEqual(tuning.best_cell(report), "b")
+        self.assertEqual(self.best_of(report), "b")
 
     def test_without_corners_tags_count_before_frames(self):
         report = self.report("f,a,total,9,10,0.9,20,120,,0,0,0", "f,b,total,8,10,0.8,30,120,,0,0,0")
-        self.assertEqual(tuning.best_cell(report), "b")
+        self.assertEqual(self.best_of(report), "b")
+
+    def test_the_best_cell_may_be_of_any_call_of_the_grid(self):
+        parts = [self.report(f"f,{cell},total,{count},10,0.{count},9,10,1,0,0,0", name=cell)
+                 for cell, count in (("a", 3), ("b", 7), ("c", 5))]
+        self.assertEqual(self.best_of(*parts), "b")
+        self.assertEqual([part for whole in (tuning.parts_of(list(range(20))),) for part in whole],
+                         [list(range(8)), list(range(8, 16)), list(range(16, 20))])
+
+    def test_methods_at_intensity_frames_get_no_rate(self):
+        options = ["--start", 0, "--fps", 7, "--end", 9]
+        self.assertEqual(tuning.options_of("edi", options), ["--start", 0, "--end", 9])
+        self.assertEqual(tuning.options_of("esi", options), options)
 
     def test_the_log_has_a_rate_for_each_flight(self):
         report = self.report("f1,a,total,9,10,0.9,9,10,1,0,0,0", "f2,a,total,1,10,0.1,1,10,1,0,0,0",
                              "all,a,total,10,20,0.5,10,20,1,1,2,3")
-        tuning.write_log(self.path / "log.csv", report, ["f1", "f2"])
+        tuning.write_log(self.path / "log.csv", [report], ["f1", "f2"])
         lines = (self.path / "log.csv").read_text().splitlines()
         self.assertTrue(lines[0].startswith("cell,rate_f1,rate_f2,"))
         self.assertEqual(lines[1], "a,0.9,0.1,10,20,0.5,10,20,1,6")
