@@ -23,6 +23,8 @@ add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Wpedantic -ffp-contract
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   add_compile_options(-Wno-restrict)
 endif()
+# OpenCV's video libraries bring a hundred others: programs load what they call.
+add_link_options(-Wl,--as-needed)
 if(ESI_WERROR)
   add_compile_options(-Werror)
 endif()

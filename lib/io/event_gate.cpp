@@ -59,6 +59,8 @@ void EventGate::admit(std::size_t first_new) {
   auto kept = held_.events.begin() + static_cast<std::ptrdiff_t>(first_new);
   bool sorted = true;
   for (auto event = kept; event != held_.events.end(); ++event) {
+    admit_plain(event, kept);
+    if (event == held_.events.end()) break;
     if (!is_inside(*event)) {
       losses_.add(Drop::outside_sensor);
       continue;
@@ -84,6 +86,31 @@ void EventGate::admit(std::size_t first_new) {
   }
   held_.events.erase(kept, held_.events.end());
   if (!sorted) std::stable_sort(held_.events.begin(), held_.events.end(), is_earlier);
+}
+
+// Those about which nothing is to be decided, which most are: inside, and not long after the event before.
+void EventGate::admit_plain(std::vector<Event>::iterator& event, std::vector<Event>::iterator& kept) {
+  if (!size_ || !newest_us_) return;
+  const SensorSize size = *size_;
+  const std::int64_t zero_us = *time_zero_us_;
+  const auto limit_us = static_cast<std::uint64_t>(options_.max_backward_us);
+  std::int64_t newest_us = *newest_us_ + zero_us;
+  int max_x = max_x_seen_, max_y = max_y_seen_;
+  const auto begin = kept;
+  const auto is_plain = [&](const Event& e) {  // unsigned: what lies before is far ahead
+    const auto ahead_us = static_cast<std::uint64_t>(e.t_us) - static_cast<std::uint64_t>(newest_us);
+    return ahead_us <= limit_us && e.t_us <= kMaxTime_us && size.contains(e.x, e.y);
+  };
+  for (; event != held_.events.end() && is_plain(*event); ++event) {
+    newest_us = event->t_us;
+    max_x = std::max<int>(max_x, event->x);
+    max_y = std::max<int>(max_y, event->y);
+    *kept++ = {newest_us - zero_us, event->x, event->y, event->on};
+  }
+  newest_us_ = newest_us - zero_us;
+  max_x_seen_ = max_x;
+  max_y_seen_ = max_y;
+  admitted_ += std::distance(begin, kept);
 }
 
 bool EventGate::is_inside(const Event& event) {

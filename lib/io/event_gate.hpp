@@ -27,6 +27,7 @@ class EventGate final : public EventSource {
   enum class Order { in_order, jitter, backward };
 
   void admit(std::size_t first_new);
+  void admit_plain(std::vector<Event>::iterator& event, std::vector<Event>::iterator& kept);
   void require_possible(std::int64_t t_us) const;
   bool is_inside(const Event& event);
   bool is_jump(const Event& event) const;

@@ -1,14 +1,12 @@
 #include "esi/io/output/frame_sink.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
-#include "esi/io/output/png_folder_sink.hpp"
-#include "esi/io/output/video_sink.hpp"
-#include "esi/io/output/y4m_sink.hpp"
+#include "esi/core/error.hpp"
 
 namespace esi {
 namespace {
@@ -18,6 +16,13 @@ constexpr std::string_view kMediaExtensions[] = {".mkv", ".mp4", ".avi", ".mov",
                                                  ".gif", ".png", ".jpg", ".jpeg", ".y4m",  ".yuv"};
 
 }  // namespace
+
+std::string media_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 bool means_folder(const std::filesystem::path& target) {
   std::error_code error;
@@ -38,17 +43,6 @@ void require_next_frame(const Frame& frame, std::int64_t index, SensorSize size)
   if (frame.index == index && frame.grey.cols == size.width_px && frame.grey.rows == size.height_px) return;
   throw Error(fmt::format("frame {} of {}x{} px came where frame {} of {} px was due", frame.index,
                           frame.grey.cols, frame.grey.rows, index, to_string(size)));
-}
-
-std::unique_ptr<FrameSink> open_frame_sink(const std::filesystem::path& target, const SinkOptions& options,
-                                           const SinkContext& context) {
-  if (target.empty()) throw usage_error("the output has no name");
-  if (target == "-") {
-    if (options.resume) throw usage_error("standard output: nothing there can be resumed");
-    return std::make_unique<Y4mSink>(context, STDOUT_FILENO);
-  }
-  if (means_folder(target)) return std::make_unique<PngFolderSink>(target, options, context);
-  return std::make_unique<VideoSink>(target, options, context);
 }
 
 }  // namespace esi

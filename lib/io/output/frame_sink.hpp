@@ -67,6 +67,9 @@ class FrameSink {
 /// Throws an Error unless the frame is the one of that index and has that size.
 void require_next_frame(const Frame& frame, std::int64_t index, SensorSize size);
 
+/// The extension of a name, in lower case: ".mkv".
+std::string media_extension(const std::filesystem::path& path);
+
 /// Whether an output's name stands for a folder: it is one, or its extension is no video's or picture's.
 bool means_folder(const std::filesystem::path& target);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -99,13 +98,6 @@ std::int64_t frames_in(const fs::path& video) {
 }
 
 }  // namespace
-
-std::string media_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 VideoSink::VideoSink(fs::path path, const SinkOptions& options, const SinkContext& context)
     : path_(usable_path(std::move(path), options, context)),

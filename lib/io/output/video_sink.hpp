@@ -11,9 +11,6 @@
 
 namespace esi {
 
-/// The extension of a name, in lower case: ".mkv".
-std::string media_extension(const std::filesystem::path& path);
-
 /// A video: .mkv (FFV1, keeps every grey level), .mp4 (MPEG-4) or .avi (motion JPEG). Beside it
 /// NAME.timestamps.txt and, last, NAME.run.json. OpenCV doesn't tell of failed writes, so the finished file
 /// is read back before it gets its name.
