@@ -26,7 +26,8 @@ std::string flag_name(const Option& option) {
 
 std::string help_of(const Option& option) {
   const std::string domain = option.domain();
-  if (option.is_switch() || domain.empty()) return option.help();
+  if (option.is_switch()) return option.help() + (option.text() == "true" ? " (default: on)" : "");
+  if (domain.empty()) return option.help();
   return fmt::format("{} [{}]", option.help(), domain);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "esi/core/version.hpp"
 
@@ -24,11 +25,29 @@ std::string groff(const std::string& text) {
   return !escaped.empty() && (escaped[0] == '.' || escaped[0] == '\'') ? "\\&" + escaped : escaped;
 }
 
+/// CLI11 would write the second name of a switch as "--no-strict{false}".
+std::string names_of(const CLI::Option& option, bool positional) {
+  if (positional) return option.get_name(true);
+  std::string names;
+  const auto add = [&names](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const std::string& name : option.get_snames()) add("-" + name);
+  for (const std::string& name : option.get_lnames()) add("--" + name);
+  return names;
+}
+
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    return names_of(*option, positional);
+  }
+};
+
 bool is_shown(const CLI::Option* option) { return !option->get_group().empty(); }
 
 std::string option_entry(const CLI::Option& option) {
-  std::string text = ".TP\n\\fB" + groff(option.get_name(option.get_positional(), true)) + "\\fR";
-  if (option.get_items_expected_max() > 0) text += " \\fI" + groff(option.get_type_name()) + "\\fR";
+  std::string text = ".TP\n\\fB" + groff(names_of(option, option.get_positional())) + "\\fR";
+  if (option.get_items_expected_max() > 0 && !option.get_positional())
+    text += " \\fI" + groff(option.get_type_name()) + "\\fR";
   text += "\n" + groff(option.get_description());
   if (!option.get_default_str().empty()) text += " (default: " + groff(option.get_default_str()) + ")";
   return text + "\n";
@@ -37,6 +56,7 @@ std::string option_entry(const CLI::Option& option) {
 }  // namespace
 
 void add_doc_flags(CLI::App& app) {
+  app.formatter(std::make_shared<HelpFormatter>());
   const auto print_and_leave = [](const std::string& text) {
     fmt::print("{}", text);
     throw CLI::Success();
@@ -52,7 +72,7 @@ void add_doc_flags(CLI::App& app) {
 
 std::string man_page(const CLI::App& app) {
   std::string text =
-      fmt::format(".TH {} 1 \"\" \"esi {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", app.get_name(),
+      fmt::format(".TH {} 1 \"\" \"esi {}\" \"User Commands\"\n.nh\n.SH NAME\n{} \\- {}\n", app.get_name(),
                   version(), groff(app.get_name()), groff(app.get_description()));
   const bool takes_recordings = app.get_option_no_throw("RECORDING") != nullptr;
   text += fmt::format(".SH SYNOPSIS\n.B {}\n[OPTION]...{}\n.SH OPTIONS\n", groff(app.get_name()),

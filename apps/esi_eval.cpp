@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli.hpp"
 #include "esi/core/json_text.hpp"
 #include "eval_arguments.hpp"
@@ -22,7 +24,9 @@ int run(int argc, char** argv) {
   EvalReport report;
   {
     cli::ProgressBar bar(!arguments.running.quiet);
-    report = run_job(arguments.job, arguments.config, [&bar](const Progress& p) {
+    std::size_t input = 0;
+    report = run_job(arguments.job, arguments.config, [&](const Progress& p) {
+      if (p.input != std::exchange(input, p.input)) bar.restart();
       bar.show(p.events, p.frames, p.t_us, p.fraction);
       return cli::stop_signal() == 0;
     });

@@ -56,7 +56,7 @@ bool parse_eval_arguments(int argc, const char* const* argv, EvalArguments& argu
 
   CLI::App app("what reconstructed images are worth, by the AprilTags found in them", "esi-eval");
   app.set_version_flag("--version", fmt::format("esi-eval {}", version()));
-  app.add_option("RECORDING", given.recordings, "recordings, each read once for all methods");
+  app.add_option("RECORDING", given.recordings, "recordings, each read once for all methods")->type_name("");
   app.add_option("--frames", given.frames,
                  "folders of frames that any tool made, with images.txt or timestamps.txt")
       ->type_name("DIR")

@@ -1,6 +1,7 @@
 #include "progress_bar.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +20,19 @@ bool is_capable_terminal() {
   return isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
 }
 
+/// A longer line would wrap, and only its last part could be rewritten.
+std::size_t terminal_columns() {
+  winsize size{};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return is_known ? size.ws_col : 80;
+}
+
+std::string counts(std::int64_t events, std::int64_t frames, double elapsed_s) {
+  if (events == 0) return fmt::format("{} frames", frames);
+  const double mev = static_cast<double>(events) * 1e-6;
+  return fmt::format("{:.1f} Mev, {} frames, {:.1f} Mev/s", mev, frames, mev / elapsed_s);
+}
+
 std::string bar(double fraction) {
   const auto full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
   return "[" + std::string(full, '#') + std::string(kBarWidth - full, '.') + "] ";
@@ -32,6 +46,11 @@ ProgressBar::~ProgressBar() {
   if (is_shown_) fmt::print(stderr, "\r\x1b[K");
 }
 
+void ProgressBar::restart() {
+  started_ = Clock::now();
+  t_begin_us_.reset();
+}
+
 void ProgressBar::show(std::int64_t events, std::int64_t frames, std::int64_t t_us,
                        std::optional<double> fraction) {
   const auto now = Clock::now();
@@ -40,13 +59,12 @@ void ProgressBar::show(std::int64_t events, std::int64_t frames, std::int64_t t_
   next_ = now + kRefresh;
   const double elapsed_s = std::max(1e-3, std::chrono::duration<double>(now - started_).count());
   std::string line = fraction ? bar(*fraction) : "";
-  line +=
-      fmt::format("{:.1f} Mev, {} frames, {:.1f} Mev/s, {:.1f} x real time",
-                  static_cast<double>(events) * 1e-6, frames, static_cast<double>(events) * 1e-6 / elapsed_s,
-                  static_cast<double>(t_us - *t_begin_us_) * 1e-6 / elapsed_s);
+  line += counts(events, frames, elapsed_s);
+  line += fmt::format(", {:.1f} x real time", static_cast<double>(t_us - *t_begin_us_) * 1e-6 / elapsed_s);
   if (fraction && *fraction > 0.01) {
     line += fmt::format(", {:.0f} s left", elapsed_s / *fraction * (1.0 - *fraction));
   }
+  line.resize(std::min(line.size(), terminal_columns() - 1));
   fmt::print(stderr, "\r\x1b[K{}", line);
   std::fflush(stderr);
 }

@@ -16,7 +16,10 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `t_us` is the recording's time so far, `fraction` how much of it has been read.
+  /// Counts, times and speeds begin anew: the next of several recordings.
+  void restart();
+
+  /// `t_us` is the recording's time so far, `fraction` how much of it has been read. No events are not told.
   void show(std::int64_t events, std::int64_t frames, std::int64_t t_us, std::optional<double> fraction);
 
  private:

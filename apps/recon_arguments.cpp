@@ -47,7 +47,7 @@ bool parse_recon_arguments(int argc, const char* const* argv, ReconArguments& ar
 
   CLI::App app("event recordings to grey images", "esi-recon");
   app.set_version_flag("--version", fmt::format("esi-recon {}", version()));
-  app.add_option("RECORDING", given, "recordings, or folders of them; - is standard input");
+  app.add_option("RECORDING", given, "recordings, or folders of them; - is standard input")->type_name("");
   app.add_option("-o,--output", arguments.output,
                  "a folder for PNG files, a video (.mp4, .mkv, .avi), or - for YUV4MPEG2 on standard output")
       ->type_name("OUT");

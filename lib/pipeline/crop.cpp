@@ -50,11 +50,25 @@ std::optional<SensorSize> CropSource::sensor_size() const {
 bool CropSource::next(Packet& packet) {
   packet.clear();
   while (!was_cut_ && source_->next(packet)) {
+    if (!packet.events.empty()) {
+      if (!seen_) seen_ = {packet.events.front().t_us, 0};
+      seen_->end_us = packet.events.back().t_us;
+    }
     crop_time(packet);
     crop_region(packet);
     if (!packet.events.empty() || !packet.frames.empty()) return true;
   }
   return false;
+}
+
+std::optional<double> CropSource::fraction_read() const {
+  const std::optional<double> of_all = source_->fraction_read();
+  if (was_cut_) return 1.0;
+  if (!seen_ || interval_.end_us == Interval{}.end_us || interval_.end_us <= seen_->begin_us) return of_all;
+  const auto begin_us = static_cast<double>(seen_->begin_us);
+  const double of_time =
+      (static_cast<double>(seen_->end_us) - begin_us) / (static_cast<double>(interval_.end_us) - begin_us);
+  return std::max(of_all.value_or(0.0), of_time);
 }
 
 void CropSource::crop_time(Packet& packet) {

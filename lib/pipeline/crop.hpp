@@ -35,7 +35,8 @@ class CropSource final : public EventSource {
   std::optional<std::int64_t> cut_at_us() const override {
     return was_cut_ ? std::optional(interval_.end_us) : std::nullopt;
   }
-  std::optional<double> fraction_read() const override { return source_->fraction_read(); }
+  /// Where the interval ends, of the time up to there.
+  std::optional<double> fraction_read() const override;
 
  private:
   void crop_time(Packet& packet);
@@ -45,6 +46,7 @@ class CropSource final : public EventSource {
   Interval interval_;
   std::optional<Region> region_;
   bool was_cut_ = false;
+  std::optional<Interval> seen_;  ///< from the first event that was read to the last
 };
 
 }  // namespace esi

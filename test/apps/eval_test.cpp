@@ -8,6 +8,7 @@
 using namespace esi::test;
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using nlohmann::json;
 
 namespace {
@@ -141,4 +142,36 @@ TEST_CASE("a folder of frames that esi-recon made scores as the recording itself
   REQUIRE(rows.size() == 10);
   CHECK(rows.front().at("t_us") == "500000");
   CHECK(rows.back().at("t_us") == "590000");
+}
+
+TEST_CASE("on a terminal one line tells how far it is, and none of it is left") {
+  const TempFolder folder;
+  const auto on_terminal = [&](const std::string& arguments) {
+    const std::string command =
+        "stty cols 50; " + eval() + " " + arguments + " -o " + quoted(folder / "out") + " --force";
+    return run_shell("TERM=xterm script -qec " + quoted(command) + " /dev/null").out;
+  };
+  const auto shown = [](const std::string& out) {  // what stands between two rewritings
+    std::vector<std::string> lines;
+    const std::string rewrite = "\r\x1b[K";
+    for (auto at = out.find(rewrite); at != std::string::npos;) {
+      const auto begin = at + rewrite.size();
+      at = out.find(rewrite, begin);
+      if (at != std::string::npos) lines.push_back(out.substr(begin, at - begin));
+    }
+    return lines;
+  };
+  const auto of_recording = shown(on_terminal(quoted(flight()) + " --method esi"));
+  REQUIRE_FALSE(of_recording.empty());
+  for (const std::string& line : of_recording) {
+    CHECK(line.size() < 50);
+    CHECK_THAT(line, StartsWith("[") && Contains("] ") && Contains(" Mev"));
+  }
+  REQUIRE(run_shell(quoted(tool("esi-recon")) + " " + quoted(flight()) + " --size 128x96 --quiet -o " +
+                    quoted(folder / "frames"))
+              .exit_code == 0);
+  const auto of_frames = shown(on_terminal("--frames " + quoted(folder / "frames") + " -g " +
+                                           quoted(flight().parent_path() / "ground_truth.json")));
+  REQUIRE_FALSE(of_frames.empty());
+  CHECK_THAT(of_frames.back(), Contains(" frames") && !Contains("Mev"));
 }

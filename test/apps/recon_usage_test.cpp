@@ -172,6 +172,10 @@ TEST_CASE("the man page and the completion know every option") {
   const auto man = run_tool("esi-recon", {"--generate-man"});
   CHECK(man.exit_code == 0);
   CHECK_THAT(man.out, StartsWith(".TH ") && Contains("\\-\\-every\\-events") && Contains("EXIT STATUS"));
+  CHECK_THAT(man.out, Contains("\n.nh\n") && Contains("\\fB\\-\\-strict, \\-\\-no\\-strict\\fR\n") &&
+                          !Contains("{false}"));
+  CHECK_THAT(run_tool("esi-recon", {"--help"}).out,
+             Contains("--strict, --no-strict") && !Contains("{false}"));
   const auto completion = run_tool("esi-recon", {"--generate-completion"});
   CHECK(completion.exit_code == 0);
   const auto used =

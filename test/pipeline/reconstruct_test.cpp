@@ -1,5 +1,6 @@
 #include "esi/pipeline/reconstruct.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "esi/core/error.hpp"
@@ -183,6 +184,19 @@ TEST_CASE("a crop that ends in silence still has its frames") {
   FrameList sink;
   reconstruct(source, schedule, method, sink, 1000, "rec", {});
   CHECK(sink.frames.size() == 50);
+}
+
+TEST_CASE("how much has been read counts up to a crop's end, not the recording's") {
+  CropSource source(source_of(packets_of(one_event_each_ms(100), 5)), {20000, 40000}, std::nullopt);
+  Packet packet;
+  std::vector<double> fractions;
+  while (source.next(packet)) fractions.push_back(source.fraction_read().value());
+  REQUIRE(fractions.size() >= 3);
+  CHECK(fractions.front() >= 0.5);
+  CHECK(fractions.front() < 0.7);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(source.fraction_read() == 1.0);
+  CHECK_FALSE(CropSource(source_of({}), {}, std::nullopt).fraction_read());
 }
 
 TEST_CASE("a region of interest moves its corner to the origin") {

@@ -66,8 +66,11 @@ class Evaluator {
   Evaluator(const EvalConfig& config, int threads, const Observer& observer)
       : config_(config), observer_(observer), pool_(threads - 1), detectors_(config.detector) {}
 
-  /// False when the observer stopped it.
-  bool run(InputRun& input) { return input.input.is_frames ? run_frames(input) : run_recording(input); }
+  /// Of several inputs the one of that index. False when the observer stopped it.
+  bool run(InputRun& input, std::size_t index) {
+    index_ = index;
+    return input.input.is_frames ? run_frames(input) : run_recording(input);
+  }
 
  private:
   bool run_recording(InputRun& input) {
@@ -113,11 +116,12 @@ class Evaluator {
     return true;
   }
 
-  static Progress progress(const std::vector<std::unique_ptr<Lane>>& lanes, const CropSource& source,
-                           const InputRun& input) {
+  Progress progress(const std::vector<std::unique_ptr<Lane>>& lanes, const CropSource& source,
+                    const InputRun& input) const {
     std::int64_t frames = 0;
     for (const auto& lane : lanes) frames += lane->loop.frames();
-    return {input.digest->events(), frames, input.digest->t_last_us().value_or(0), source.fraction_read()};
+    return {input.digest->events(), frames, input.digest->t_last_us().value_or(0), source.fraction_read(),
+            index_};
   }
 
   bool is_whole() const { return config_.frames.interval() == Interval{}; }
@@ -144,7 +148,7 @@ class Evaluator {
       judged.write(frame);
       ++frame.index;
       const double fraction = static_cast<double>(frame.index) / static_cast<double>(pictures.size());
-      if (observer_ && !observer_({0, frame.index, picture.t_us, fraction})) return false;
+      if (observer_ && !observer_({0, frame.index, picture.t_us, fraction, index_})) return false;
     }
     judged.finish("");
     input.duration_s = static_cast<double>(pictures.back().t_us - pictures.front().t_us) * 1e-6;
@@ -169,6 +173,7 @@ class Evaluator {
   const Observer& observer_;
   WorkerPool pool_;
   DetectorPool detectors_;
+  std::size_t index_ = 0;
 };
 
 }  // namespace
@@ -197,10 +202,8 @@ Evaluation evaluate(const EvalConfig& config, std::vector<InputRun> inputs, int 
   Evaluation evaluation;
   evaluation.inputs = std::move(inputs);
   Evaluator evaluator(config, threads, observer);
-  for (InputRun& input : evaluation.inputs) {
-    if (evaluator.run(input)) continue;
-    evaluation.stopped = true;
-    break;
+  for (std::size_t i = 0; i < evaluation.inputs.size() && !evaluation.stopped; ++i) {
+    evaluation.stopped = !evaluator.run(evaluation.inputs[i], i);
   }
   return evaluation;
 }
