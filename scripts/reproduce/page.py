@@ -66,7 +66,7 @@ its rate is an upper bound and no result. `edi` and `complementary` need intensi
 Every method got {-(-64 // plan.every_cell)} cells, the same flights (dim, {plan.tuning_s} s, seeds {listed(plan.tuning)}; of each {tuning_part(plan)}) and the same filters: none, a
 median of 3x3, a Gaussian of 0.7 px, and that with background filter and polarity balance (scripts/reproduce/tuning_grids.json;
 `esi-adaptive` has the balance in all of its cells, since that is what it is). The best cell detects most frames of both
-flights, at a tie with the smaller mean corner error. The logs are {logs("tuned")}.
+flights; at a tie the one that finds most tags, then the one with the smaller mean corner error. The logs are {logs("tuned")}.
 
 {tables.chosen(run)}
 {board_tuning(run)}"""

@@ -53,7 +53,8 @@ def options_of(method, options):
 
 
 def best_cell(log):
-    """Most detected frames (or tags, where truth has no corners and one frame many tags), then smaller corner error."""
+    """Most detected frames, then most tags (the other way round where truth has no corners and a frame many tags),
+    then the smaller corner error."""
     def rank(row):
         found = int(row["detected"]), int(row["tags_found"])
         return found[::-1] if not row["corner_error_mean_px"] else found, -float(row["corner_error_mean_px"] or 0)
