@@ -11,7 +11,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from reproduce import plan, tables, tuning
+from reproduce import plan, stages, tables, tuning
 from reproduce.tools import Tools
 
 HEADER = "input,method,phase,detected,frames,rate,tags_found,tag_chances,corner_error_mean_px," \
@@ -20,6 +20,18 @@ TOOL = """#!/bin/sh
 for last; do :; done
 mkdir -p "$last"; echo once >> "$last/calls"; echo '{}' > "$last/run.json"
 """
+
+EVALUATION = """#!/usr/bin/python3
+import pathlib, sys
+arguments, output = sys.argv[1:], pathlib.Path(sys.argv[-1])
+if "highpass" in str(output):
+    sys.exit("fails")
+output.mkdir(parents=True)
+methods = [pathlib.Path(b).stem for a, b in zip(arguments, arguments[1:]) if a == "--method"]
+rows = [f"f,{name},total,{i},9,0.{i},{i},9,1,0,0,0" for i, name in enumerate(methods)]
+(output / "table.csv").write_text("%s" + "\\n".join(rows) + "\\n")
+(output / "run.json").write_text("{}")
+""" % HEADER.replace("\n", "\\n")
 
 
 class Grids(unittest.TestCase):
@@ -107,6 +119,21 @@ class Reports(unittest.TestCase):
         self.assertEqual(tables.percent([0.5, 0.7]), "60.0 % (50.0..70.0)")
         self.assertEqual(tables.percent([0.5]), "50.0 %")
         self.assertEqual(tables.percent([]), "-")
+
+    def test_what_was_chosen_before_a_failure_is_kept(self):
+        tool = self.path / "esi-eval"
+        tool.write_text(EVALUATION)
+        tool.chmod(tool.stat().st_mode | stat.S_IXUSR)
+        run = stages.Run(plan.QUICK, Tools(self.path, 1), self.path, None, {})
+        with self.assertRaises(SystemExit):
+            stages.choose(run, ["esi", "edi", "highpass", "accumulator"], "tuned", [self.path / "f/events"],
+                          ["--fps", 7], ())
+        last = list(tuning.cells_of("esi", plan.QUICK.every_cell).values())[-1]
+        self.assertEqual(json.loads(run.tuned("esi").read_text()), last)
+        self.assertEqual(run.methods_tuned(), ["esi", "edi"])
+        commands = {method: run.report("tuned", method, "part0.command.json").read_text() for method in ("esi", "edi")}
+        self.assertIn("--fps", commands["esi"])
+        self.assertNotIn("--fps", commands["edi"])
 
     def test_finished_work_is_not_done_again_unless_the_command_changed(self):
         tool = self.path / "tool"
