@@ -37,7 +37,7 @@ std::vector<double> logarithmic_ticks(const Axis& axis) {
       if (factor == 1.0 || is_short) values.push_back(value);
     }
   }
-  return values;
+  return values.size() > 1 ? values : linear_ticks(axis, 4);
 }
 
 }  // namespace
@@ -67,8 +67,22 @@ Axis axis_around(std::string label, const std::vector<double>& values, bool loga
   return axis;
 }
 
-std::vector<double> ticks(const Axis& axis, int count) {
-  return axis.is_logarithmic ? logarithmic_ticks(axis) : linear_ticks(axis, count);
+Axis axis_of_names(std::string label, std::vector<std::string> names) {
+  const double last = static_cast<double>(names.size()) - 1.0;
+  Axis axis{std::move(label), -0.5, std::max(last, 0.0) + 0.5, false};
+  for (std::string& name : names) {
+    axis.own_ticks.push_back({static_cast<double>(axis.own_ticks.size()), std::move(name)});
+  }
+  return axis;
+}
+
+std::vector<AxisTick> ticks(const Axis& axis, int count) {
+  if (!axis.own_ticks.empty()) return axis.own_ticks;
+  std::vector<AxisTick> found;
+  for (const double value : axis.is_logarithmic ? logarithmic_ticks(axis) : linear_ticks(axis, count)) {
+    found.push_back({value, tick_text(value)});
+  }
+  return found;
 }
 
 std::string tick_text(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0.0 : value); }

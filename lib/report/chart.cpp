@@ -8,7 +8,8 @@ namespace esi {
 namespace {
 
 constexpr double kLeft_px = 62.0, kRight_px = 16.0, kTop_px = 12.0, kBottom_px = 46.0;
-constexpr double kLegend_px = 150.0;
+constexpr double kLegendSide_px = 52.0, kLegendLeast_px = 150.0, kLegendMost_px = 300.0;
+constexpr double kLine_px = 2.0;
 constexpr double kBar_px = 18.0, kBarStep_px = 26.0, kBarNames_px = 170.0, kBarText_px = 90.0;
 constexpr std::string_view kGrid = "#ddd", kInk = "#222";
 
@@ -26,7 +27,7 @@ void draw_band(Plot& plot, const Series& series, std::string_view colour) {
 void draw_line(Plot& plot, const Series& series, std::string_view colour) {
   std::vector<Point> points;
   const auto end_part = [&] {
-    if (points.size() > 1) plot.svg().polyline(points, colour);
+    if (points.size() > 1) plot.svg().polyline(points, colour, kLine_px, series.is_dashed);
     points.clear();
   };
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -40,11 +41,18 @@ void draw_line(Plot& plot, const Series& series, std::string_view colour) {
   end_part();
 }
 
+double legend_width_px(const std::vector<Series>& series) {
+  if (series.size() < 2) return 0.0;
+  double longest_px = 0.0;
+  for (const Series& one : series) longest_px = std::max(longest_px, text_width_px(one.name));
+  return std::clamp(longest_px + kLegendSide_px, kLegendLeast_px, kLegendMost_px);
+}
+
 void draw_legend(Plot& plot, const std::vector<Series>& series) {
   for (std::size_t i = 0; i < series.size(); ++i) {
     const double y_px = kTop_px + 8.0 + 18.0 * static_cast<double>(i);
     const double x_px = plot.right_px() + 12.0;
-    plot.svg().line({x_px, y_px}, {x_px + 18.0, y_px}, series_colour(i), 2.0);
+    plot.svg().polyline({{x_px, y_px}, {x_px + 18.0, y_px}}, series_colour(i), kLine_px, series[i].is_dashed);
     plot.svg().text({x_px + 24.0, y_px + 4.0}, series[i].name);
   }
 }
@@ -68,15 +76,15 @@ Point Plot::at(double x, double y) const {
 }
 
 void Plot::draw_axes() {
-  for (const double value : ticks(x_, 8)) {
-    const double x_px = at(value, y_.low).x;
+  for (const AxisTick& tick : ticks(x_, 8)) {
+    const double x_px = at(tick.value, y_.low).x;
     svg_.line({x_px, top_px_}, {x_px, bottom_px_}, kGrid);
-    svg_.text({x_px, bottom_px_ + 16.0}, tick_text(value), Anchor::middle);
+    svg_.text({x_px, bottom_px_ + 16.0}, tick.text, Anchor::middle);
   }
-  for (const double value : ticks(y_, 5)) {
-    const double y_px = at(x_.low, value).y;
+  for (const AxisTick& tick : ticks(y_, 5)) {
+    const double y_px = at(x_.low, tick.value).y;
     svg_.line({left_px_, y_px}, {right_px_, y_px}, kGrid);
-    svg_.text({left_px_ - 6.0, y_px + 4.0}, tick_text(value), Anchor::end);
+    svg_.text({left_px_ - 6.0, y_px + 4.0}, tick.text, Anchor::end);
   }
   svg_.line({left_px_, bottom_px_}, {right_px_, bottom_px_}, kInk);
   svg_.line({left_px_, top_px_}, {left_px_, bottom_px_}, kInk);
@@ -86,13 +94,12 @@ void Plot::draw_axes() {
 
 Svg line_chart(const Axis& x, const Axis& y, const std::vector<Series>& series, double width_px,
                double height_px) {
-  const bool has_legend = series.size() > 1;
-  Plot plot(x, y, width_px, height_px, has_legend ? kLegend_px : 0.0);
+  Plot plot(x, y, width_px, height_px, legend_width_px(series));
   for (std::size_t i = 0; i < series.size(); ++i) {
     draw_band(plot, series[i], series_colour(i));
     draw_line(plot, series[i], series_colour(i));
   }
-  if (has_legend) draw_legend(plot, series);
+  if (series.size() > 1) draw_legend(plot, series);
   return std::move(plot.svg());
 }
 

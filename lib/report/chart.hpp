@@ -14,6 +14,7 @@ struct Series {
   std::vector<double> x, y;       ///< of one length
   std::vector<double> low, high;  ///< band around y, empty or of y's length
   bool has_marks = false;         ///< a dot at each value
+  bool is_dashed = false;
 };
 
 /// Lines over two axes, with a legend where there are several.

@@ -30,8 +30,13 @@ const char* for_html(char c) {
       return "&quot;";
     case '\'':
       return "&#39;";
-    default:
+    case '\t':
+    case '\n':
+    case '\r':
       return nullptr;
+    default:
+      // XML has no control characters; U+FFFD stands for them.
+      return static_cast<unsigned char>(c) < 0x20U ? "\xEF\xBF\xBD" : nullptr;
   }
 }
 

@@ -11,7 +11,7 @@ namespace esi {
 /// RFC 4180: in quotes where it holds a comma, a quote or the end of a line.
 std::string csv_field(std::string_view text);
 
-/// For HTML and SVG, in text as well as in quoted attributes.
+/// For HTML and SVG, in text as well as in quoted attributes. Control characters become U+FFFD.
 std::string html_text(std::string_view text);
 
 /// LaTeX outside of mathematics. Ends of lines become blanks.

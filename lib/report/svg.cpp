@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "esi/report/escape.hpp"
@@ -33,9 +34,11 @@ void Svg::line(Point a, Point b, std::string_view colour, double width_px) {
               '\n';
 }
 
-void Svg::polyline(const std::vector<Point>& points, std::string_view colour, double width_px) {
-  content_ += fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="{}"/>)",
-                          points_text(points), colour, width_px) +
+void Svg::polyline(const std::vector<Point>& points, std::string_view colour, double width_px,
+                   bool is_dashed) {
+  const std::string_view dashes = is_dashed ? R"( stroke-dasharray="6 4")" : "";
+  content_ += fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="{}"{}/>)",
+                          points_text(points), colour, width_px, dashes) +
               '\n';
 }
 
@@ -79,6 +82,14 @@ std::string Svg::str() const {
              R"(font-family="sans-serif" font-size="12">)",
              width_px_, height_px_) +
          '\n' + content_ + "</svg>\n";
+}
+
+double text_width_px(std::string_view text) {
+  constexpr double kCharacter_px = 7.0;
+  // What continues a character of UTF-8 has no width of its own.
+  const auto characters = std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
+  return kCharacter_px * static_cast<double>(characters);
 }
 
 std::string_view series_colour(std::size_t i) {

@@ -75,8 +75,8 @@ class Drawing {
   }
 
   void draw_axis() {
-    for (const double value : ticks(axis_, 10)) {
-      svg_.text({x_of(value), bottom_px_ + 14.0}, tick_text(value), Anchor::middle);
+    for (const AxisTick& tick : ticks(axis_, 10)) {
+      svg_.text({x_of(tick.value), bottom_px_ + 14.0}, tick.text, Anchor::middle);
     }
     svg_.text({kNames_px + 0.5 * width_px_, bottom_px_ + 32.0}, axis_.label, Anchor::middle);
   }

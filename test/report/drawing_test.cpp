@@ -21,6 +21,12 @@ std::size_t count(const pugi::xml_document& document, const std::string& element
   return document.select_nodes(("//" + element).c_str()).size();
 }
 
+std::vector<double> tick_values(const Axis& axis, int count) {
+  std::vector<double> values;
+  for (const AxisTick& tick : ticks(axis, count)) values.push_back(tick.value);
+  return values;
+}
+
 bool has_text(const pugi::xml_document& document, const std::string& text) {
   for (const auto& found : document.select_nodes("//text")) {
     if (found.node().text().get() == text) return true;
@@ -35,7 +41,7 @@ TEST_CASE("an axis has round ends around its values, and round ticks") {
   CHECK(axis.low == Approx(0.0));
   CHECK(axis.high == Approx(5.0));
   CHECK(axis.share_of(1.25) == Approx(0.25));
-  CHECK(ticks(axis, 5) == std::vector<double>{0, 1, 2, 3, 4, 5});
+  CHECK(tick_values(axis, 5) == std::vector<double>{0, 1, 2, 3, 4, 5});
   CHECK(ticks({"x", 0.0, 0.3, false}, 3).size() == 4);
 }
 
@@ -43,8 +49,8 @@ TEST_CASE("a logarithmic axis has powers of ten, and is linear where a value is 
   const Axis axis = axis_around("x", {0.5, 200.0}, true);
   CHECK(axis.is_logarithmic);
   CHECK(axis.share_of(10.0) == Approx(0.5));
-  CHECK(ticks(axis, 5) == std::vector<double>{1, 10, 100});
-  CHECK(ticks({"x", 0.5, 4.0, true}, 5) == std::vector<double>{0.5, 1, 2});
+  CHECK(tick_values(axis, 5) == std::vector<double>{1, 10, 100});
+  CHECK(tick_values({"x", 0.5, 4.0, true}, 5) == std::vector<double>{0.5, 1, 2});
   CHECK_FALSE(axis_around("x", {0.0, 10.0}, true).is_logarithmic);
 }
 
@@ -64,7 +70,7 @@ TEST_CASE("a line chart has a line per series, broken where a value is missing, 
                      true};
   const Series broken{"b", {1, 2, 3, 4, 5}, {0.1, 0.2, NAN, 0.4, 0.5}, {}, {}, false};
   const auto document = parsed(line_chart(x, y, {whole, broken}));
-  CHECK(count(document, "polyline") == 3);
+  CHECK(count(document, "polyline") == 3 + 2);  // and in the legend
   CHECK(count(document, "polygon") == 1);
   CHECK(count(document, "circle") == 4);
   CHECK(has_text(document, "esi"));
@@ -111,4 +117,60 @@ TEST_CASE("a heat map shows every value, and none where there is none") {
   CHECK(has_text(document, "0.9"));
   CHECK(has_text(document, "-"));
   CHECK(document.select_nodes("//rect[@fill='#08519c']").size() == 1);
+}
+
+TEST_CASE("a short logarithmic axis without round numbers in it still has ticks") {
+  CHECK(tick_values({"x", 6.0, 9.0, true}, 5) == std::vector<double>{6, 7, 8, 9});
+}
+
+TEST_CASE("an axis of names has them side by side, within its ends") {
+  const Axis axis = axis_of_names("form", {"linear", "power", "none"});
+  CHECK(tick_values(axis, 1) == std::vector<double>{0, 1, 2});
+  CHECK(axis.share_of(1.0) == Approx(0.5));
+  CHECK(axis.share_of(0.0) == Approx(1.0 / 6.0));
+  CHECK(axis_of_names("form", {}).low < axis_of_names("form", {}).high);
+  const Series series{"a", {0, 1, 2}, {0, 1, 0}, {}, {}};
+  const auto document = parsed(line_chart(axis, {"rate", 0.0, 1.0}, {series}));
+  for (const char* const name : {"linear", "power", "none"}) CHECK(has_text(document, name));
+  CHECK_FALSE(has_text(document, "2"));
+}
+
+TEST_CASE("a dashed line is dashed in its legend, too") {
+  const Series plain{"a", {0, 1}, {0, 1}, {}, {}, true, false},
+      dashed{"b", {0, 1}, {1, 0}, {}, {}, false, true};
+  const auto document = parsed(line_chart({"x"}, {"y"}, {plain, dashed}));
+  CHECK(document.select_nodes("//polyline[@stroke-dasharray]").size() == 2);
+  CHECK(count(document, "polyline") == 4);
+}
+
+TEST_CASE("a legend is as wide as its names, up to a limit") {
+  const auto plot_px = [](const std::string& name) {
+    const auto document =
+        parsed(line_chart({"x"}, {"y"}, {{name, {0, 1}, {0, 1}, {}, {}}, {"b", {0, 1}, {1, 0}, {}, {}}}));
+    double right_px = 0.0;
+    for (const auto& line : document.select_nodes("//line")) {
+      right_px = std::max(right_px, line.node().attribute("x2").as_double());
+    }
+    return right_px;
+  };
+  CHECK(plot_px("a") == Approx(640.0 - 16.0 - 150.0));
+  CHECK(plot_px(std::string(20, 'a')) == Approx(640.0 - 16.0 - 20 * 7.0 - 52.0));
+  CHECK(plot_px(std::string(99, 'a')) == Approx(640.0 - 16.0 - 300.0));
+  CHECK(text_width_px("\xc3\xa9\xe2\x82\xac") == Approx(2.0 * text_width_px("a")));
+}
+
+TEST_CASE("a heat map outlines the cell it is told to, and is as wide as its names") {
+  HeatMap map{"tau", "n", "rate", {"1", "2"}, {"a", "b"}, {{0.9, 0.9}, {0.1, 0.5}}};
+  CHECK(parsed(heat_map(map)).select_nodes("//rect[@fill='#d55e00']").size() == 2);
+  map.outlined = HeatMap::Place{1, 0};
+  const auto document = parsed(heat_map(map));
+  const auto outlines = document.select_nodes("//rect[@fill='#d55e00']");
+  REQUIRE(outlines.size() == 1);
+  CHECK(outlines[0].node().attribute("x").as_double() == Approx(90.0 + 58.0));
+  CHECK(outlines[0].node().attribute("y").as_double() == Approx(26.0));
+  const double width_px = heat_map(map).width_px();
+  map.x[0] = std::string(30, 'x');
+  CHECK(heat_map(map).width_px() > width_px + 150.0);
+  map.y[0] = std::string(30, 'y');
+  CHECK(heat_map(map).width_px() > width_px + 300.0);
 }

@@ -34,6 +34,7 @@ TEST_CASE("csv fields are quoted where they must be, and only there") {
 
 TEST_CASE("what means something to HTML, LaTeX or Markdown means itself") {
   CHECK(html_text("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+  CHECK(html_text("a\x01\x1f\t\n\r") == "a\xEF\xBF\xBD\xEF\xBF\xBD\t\n\r");
   CHECK(tex_text("_&%$#{}") == "\\_\\&\\%\\$\\#\\{\\}");
   CHECK(tex_text("\\~^<>\"") ==
         "\\textbackslash{}\\textasciitilde{}\\textasciicircum{}\\textless{}\\textgreater{}\\textquotedbl{}");
