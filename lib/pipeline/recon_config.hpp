@@ -27,6 +27,7 @@ class ReconConfig {
 
   const Method& method() const { return *method_; }
   const MethodConfig& method_config() const { return *method_config_; }
+  OptionTable& method_options() { return method_config_->options(); }
 
   /// Chooses a method, with that method's defaults. A name of the table, or the path of a config file.
   void choose_method(const std::string& name_or_file);

@@ -49,11 +49,15 @@ void refuse_part_options(const EvalMethod& method) {
 }  // namespace
 
 void JudgingOptions::declare(OptionTable& table) {
+  declare_selection(table);
+  table.toggle("quality", quality, "compare with clean frames where the truth has them");
+  table.toggle("tracking", tracking, "track the target where the truth has poses");
+}
+
+void JudgingOptions::declare_selection(OptionTable& table) {
   table.text("ids", ids, "tags that are expected, such as 0,1, instead of the truth's",
              [](const std::string& text) { JudgingOptions{.ids = text}.id_list(); });
   table.integer("stride", stride, {1, 1'000'000}, "frames", "look at one frame of so many");
-  table.toggle("quality", quality, "compare with clean frames where the truth has them");
-  table.toggle("tracking", tracking, "track the target where the truth has poses");
 }
 
 std::vector<int> JudgingOptions::id_list() const {

@@ -25,8 +25,13 @@ struct JudgingOptions {
   std::int64_t stride = 1;  ///< every so many frames one is looked at
   bool quality = true;
   bool tracking = true;
+  /// The first frame that is looked at; less than the stride. No option: rounds of a sweep's search share
+  /// frames out by it.
+  std::int64_t first_frame = 0;
 
   void declare(OptionTable& table);
+  /// Only which tags and frames.
+  void declare_selection(OptionTable& table);
   /// The list's numbers; empty for an empty list.
   std::vector<int> id_list() const;
 };

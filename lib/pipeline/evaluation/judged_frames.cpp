@@ -56,7 +56,7 @@ JudgedFrames::JudgedFrames(const EvalConfig& config, const LoadedTruth& truth, W
 JudgedFrames::~JudgedFrames() { stop(); }
 
 void JudgedFrames::write(const Frame& frame) {
-  if (frame.index % config_.judging.stride != 0) return;
+  if (frame.index % config_.judging.stride != config_.judging.first_frame) return;
   while (pending_.size() >= at_once_) collect();
   Pending& pending = pending_.emplace_back();
   pending.grey = frame.grey.clone();

@@ -3,26 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "esi/pipeline/evaluation/rate_json.hpp"
+
 namespace esi {
 namespace {
 
 using nlohmann::json;
-
-template <class Number>
-json or_null(const std::optional<Number>& number) {
-  return number ? json(*number) : json();
-}
-
-json interval_json(const std::optional<ConfidenceInterval>& interval) {
-  return interval ? json::array({interval->low, interval->high}) : json();
-}
-
-json rate_json(const Rate& rate) {
-  return {{"hits", rate.hits},
-          {"of", rate.of},
-          {"rate", or_null(rate.value())},
-          {"wilson95", interval_json(rate.wilson())}};
-}
 
 json seconds_json(const std::optional<std::int64_t>& t_us) {
   return t_us ? json(static_cast<double>(*t_us) * 1e-6) : json();

@@ -5,28 +5,15 @@
 #include <algorithm>
 #include <map>
 
+#include "esi/pipeline/evaluation/number_texts.hpp"
+
 namespace esi {
 namespace {
 
 using Row = std::vector<std::string>;
 
-template <class Number>
-std::string text_of(const std::optional<Number>& number, int decimals) {
-  return number ? fmt::format("{:.{}f}", *number, decimals) : std::string();
-}
-
 std::string seconds_of(const std::optional<std::int64_t>& t_us) {
   return t_us ? fmt::format("{:.6f}", static_cast<double>(*t_us) * 1e-6) : std::string();
-}
-
-std::string share_of(const Rate& rate) {
-  if (!rate.value()) return "-";
-  return fmt::format("{}/{} ({:.1f} %)", rate.hits, rate.of, 100.0 * *rate.value());
-}
-
-void add_interval(Row& row, const std::optional<ConfidenceInterval>& interval) {
-  row.push_back(interval ? fmt::format("{:.6f}", interval->low) : "");
-  row.push_back(interval ? fmt::format("{:.6f}", interval->high) : "");
 }
 
 std::string bits_of(const TagScore& tags, std::size_t bits) {
@@ -49,11 +36,11 @@ const Row kTagColumns = {"tag_chances",
 void add_tag_numbers(Row& row, const TagScore& tags) {
   row.push_back(std::to_string(tags.instances.of));
   row.push_back(std::to_string(tags.instances.hits));
-  row.push_back(text_of(tags.instances.value(), 6));
-  row.push_back(text_of(tags.corner_error_median_px, 4));
-  row.push_back(text_of(tags.corner_error_mean_px, 4));
-  row.push_back(text_of(tags.corner_error_p95_px, 4));
-  row.push_back(text_of(tags.margin_median, 3));
+  row.push_back(decimal_text(tags.instances.value(), 6));
+  row.push_back(decimal_text(tags.corner_error_median_px, 4));
+  row.push_back(decimal_text(tags.corner_error_mean_px, 4));
+  row.push_back(decimal_text(tags.corner_error_p95_px, 4));
+  row.push_back(decimal_text(tags.margin_median, 3));
   for (std::size_t bits = 0; bits < 3; ++bits) row.push_back(bits_of(tags, bits));
   row.push_back(seconds_of(tags.first_found_us));
   row.push_back(seconds_of(tags.longest_gap_us));
@@ -65,7 +52,7 @@ Row score_row(const std::string& input, const std::string& method, const PhaseSc
              phase.name,
              std::to_string(phase.frames.of),
              std::to_string(phase.frames.hits),
-             text_of(phase.frames.value(), 6)};
+             decimal_text(phase.frames.value(), 6)};
   add_interval(row, phase.frames.wilson());
   add_interval(row, phase.bootstrap);
   for (const std::int64_t count : {phase.wrong.foreign, phase.wrong.misplaced, phase.wrong.duplicate}) {
@@ -113,18 +100,16 @@ Table rate_table(const InputResult& result) {
   for (const char* const column : {"95 % (Wilson)", "95 % (blocks)", "false", "corner error, px", "tags"}) {
     table.columns.emplace_back(column);
   }
-  const auto range = [](const std::optional<ConfidenceInterval>& interval) {
-    return interval ? fmt::format("{:.1f}..{:.1f}", 100.0 * interval->low, 100.0 * interval->high) : "-";
-  };
   for (const MethodResult& method : result.methods) {
     Row& row = table.rows.emplace_back(Row{method.label});
-    for_each_phase(method.score, [&](const PhaseScore& phase) { row.push_back(share_of(phase.frames)); });
+    for_each_phase(method.score, [&](const PhaseScore& phase) { row.push_back(share_text(phase.frames)); });
     const PhaseScore& total = method.score.total;
-    row.push_back(range(total.frames.wilson()));
-    row.push_back(range(total.bootstrap));
+    row.push_back(percent_range_text(total.frames.wilson()));
+    row.push_back(percent_range_text(total.bootstrap));
     row.push_back(std::to_string(total.wrong.total()));
-    row.push_back(total.tags.corner_error_median_px ? text_of(total.tags.corner_error_median_px, 2) : "-");
-    row.push_back(share_of(total.tags.instances));
+    row.push_back(total.tags.corner_error_median_px ? decimal_text(total.tags.corner_error_median_px, 2)
+                                                    : "-");
+    row.push_back(share_text(total.tags.instances));
   }
   return table;
 }
@@ -208,8 +193,9 @@ Table quality_table(const InputResult& result) {
               {}};
   for (const MethodResult& method : result.methods) {
     for (const QualitySummary& row : method.quality) {
-      table.rows.push_back({method.label, row.phase, std::to_string(row.frames), text_of(row.ssim, 3),
-                            text_of(row.ssim_fitted, 3), text_of(row.psnr_db, 2), text_of(row.sharpness, 2)});
+      table.rows.push_back({method.label, row.phase, std::to_string(row.frames), decimal_text(row.ssim, 3),
+                            decimal_text(row.ssim_fitted, 3), decimal_text(row.psnr_db, 2),
+                            decimal_text(row.sharpness, 2)});
     }
   }
   return table;
@@ -222,8 +208,9 @@ Table tracking_table(const InputResult& result) {
   for (const MethodResult& method : result.methods) {
     if (!method.tracking) continue;
     const auto add = [&](const PhaseTracking& phase) {
-      table.rows.push_back({method.label, phase.name, share_of(phase.available), text_of(phase.rmse_m, 3),
-                            text_of(phase.error_median_m, 3), text_of(phase.error_max_m, 3),
+      table.rows.push_back({method.label, phase.name, share_text(phase.available),
+                            decimal_text(phase.rmse_m, 3), decimal_text(phase.error_median_m, 3),
+                            decimal_text(phase.error_max_m, 3),
                             fmt::format("{:.2f}", static_cast<double>(phase.longest_gap_us) * 1e-6)});
     };
     for (const PhaseTracking& phase : method.tracking->phases) add(phase);
