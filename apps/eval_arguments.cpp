@@ -8,44 +8,22 @@
 #include "esi/core/error.hpp"
 #include "esi/core/version.hpp"
 #include "esi/io/output/frame_sink.hpp"
+#include "eval_inputs.hpp"
 
 namespace esi::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Given {
   std::vector<std::string> recordings, frames, truths, methods, config_files, requirements;
   std::string output;
 };
 
-/// The truth that stands beside an input under its usual name.
-fs::path truth_beside(const EvalInput& input) {
-  const fs::path folder = input.is_frames ? input.path : input.path.parent_path();
-  fs::path truth = folder / "ground_truth.json";
-  std::error_code absent;
-  if (fs::exists(truth, absent)) return truth;
-  throw usage_error(fmt::format("{}: say with -g where its ground truth is; there is no {} beside it",
-                                input.path.string(), truth.string()));
-}
-
 std::vector<EvalInput> inputs_of(const Given& given) {
   std::vector<EvalInput> inputs;
   for (const std::string& path : given.recordings) inputs.push_back({path, {}, false});
   for (const std::string& path : given.frames) inputs.push_back({path, {}, true});
   if (inputs.empty()) throw usage_error("give a recording, or with --frames a folder of frames");
-  const std::size_t truths = given.truths.size();
-  if (truths > 1 && truths != inputs.size()) {
-    throw usage_error(
-        fmt::format("{} ground truths for {} inputs: give one each, in their order, or one for all", truths,
-                    inputs.size()));
-  }
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].path.empty() || inputs[i].path == "-") {
-      throw usage_error("esi-eval needs recordings that can be opened by name, not standard input");
-    }
-    inputs[i].truth = truths == 0 ? truth_beside(inputs[i]) : fs::path(given.truths[truths == 1 ? 0 : i]);
-  }
+  give_truths(inputs, given.truths);
   return inputs;
 }
 

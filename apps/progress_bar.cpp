@@ -53,16 +53,33 @@ void ProgressBar::restart() {
 
 void ProgressBar::show(std::int64_t events, std::int64_t frames, std::int64_t t_us,
                        std::optional<double> fraction) {
-  const auto now = Clock::now();
   if (!t_begin_us_) t_begin_us_ = t_us;
-  if (!is_shown_ || now < next_) return;
+  if (!is_due()) return;
+  const double recording_s = static_cast<double>(t_us - *t_begin_us_) * 1e-6;
+  print(fmt::format("{}, {:.1f} x real time", counts(events, frames, elapsed_s()), recording_s / elapsed_s()),
+        fraction);
+}
+
+void ProgressBar::show_share(const char* kind, std::size_t done, std::size_t all) {
+  if (all == 0 || !is_due()) return;
+  print(fmt::format("{} of {} {}", done, all, kind), static_cast<double>(done) / static_cast<double>(all));
+}
+
+bool ProgressBar::is_due() {
+  const auto now = Clock::now();
+  if (!is_shown_ || now < next_) return false;
   next_ = now + kRefresh;
-  const double elapsed_s = std::max(1e-3, std::chrono::duration<double>(now - started_).count());
-  std::string line = fraction ? bar(*fraction) : "";
-  line += counts(events, frames, elapsed_s);
-  line += fmt::format(", {:.1f} x real time", static_cast<double>(t_us - *t_begin_us_) * 1e-6 / elapsed_s);
+  return true;
+}
+
+double ProgressBar::elapsed_s() const {
+  return std::max(1e-3, std::chrono::duration<double>(Clock::now() - started_).count());
+}
+
+void ProgressBar::print(std::string line, std::optional<double> fraction) const {
+  if (fraction) line = bar(*fraction) + line;
   if (fraction && *fraction > 0.01) {
-    line += fmt::format(", {:.0f} s left", elapsed_s / *fraction * (1.0 - *fraction));
+    line += fmt::format(", {:.0f} s left", elapsed_s() / *fraction * (1.0 - *fraction));
   }
   line.resize(std::min(line.size(), terminal_columns() - 1));
   fmt::print(stderr, "\r\x1b[K{}", line);

@@ -22,8 +22,15 @@ class ProgressBar {
   /// `t_us` is the recording's time so far, `fraction` how much of it has been read. No events are not told.
   void show(std::int64_t events, std::int64_t frames, std::int64_t t_us, std::optional<double> fraction);
 
+  /// So many of all things of a kind are done.
+  void show_share(const char* kind, std::size_t done, std::size_t all);
+
  private:
   using Clock = std::chrono::steady_clock;
+
+  bool is_due();
+  double elapsed_s() const;
+  void print(std::string line, std::optional<double> fraction) const;
 
   bool is_shown_;
   Clock::time_point started_ = Clock::now();

@@ -1,0 +1,154 @@
+#include "esi/sweep/sweep_job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+
+#include "esi/core/error.hpp"
+#include "esi/core/json_text.hpp"
+#include "esi/io/output/output_file.hpp"
+#include "esi/sweep/block_runner.hpp"
+#include "esi/sweep/sweep_folder.hpp"
+#include "esi/sweep/sweep_report.hpp"
+
+namespace esi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kTick{100};
+
+void refuse_unknown_objective(const SweepConfig& config, const SweepHeader& header) {
+  const std::string& objective = config.search.objective;
+  if (objective == "total") return;
+  for (const SweptRecording& recording : header.recordings) {
+    for (const Phase& phase : recording.phases) {
+      if (phase.name == objective) return;
+    }
+  }
+  throw usage_error(fmt::format("option objective: no ground truth has a phase '{}'", objective));
+}
+
+void check_job(const SweepJob& job, const SweepConfig& config) {
+  config.check();
+  if (config.inputs.empty()) throw usage_error("give a recording");
+  const bool is_halving = config.search.search == SearchOptions::Search::halving;
+  if (is_halving && !job.shard.is_all()) {
+    throw usage_error("--shard goes with a full search: halving compares all cells with one another");
+  }
+}
+
+std::string losses_of(const std::vector<InputRun>& runs) {
+  std::string losses;
+  for (const InputRun& run : runs) {
+    if (!run.losses.any()) continue;
+    losses += fmt::format("{}{}: {}", losses.empty() ? "" : "; ", run.input.path.string(), run.losses.text());
+  }
+  return losses;
+}
+
+/// One process' part in a sweep.
+class Sweeper {
+ public:
+  Sweeper(const SweepJob& job, const SweepConfig& config, const SweepObserver& observer)
+      : job_(job), config_(config), observer_(observer) {}
+
+  SweepReport run() {
+    check_job(job_, config_);
+    header_ = survey(config_, runs_, [this](const Progress&) { return tell({}); });
+    if (is_stopping_) return stopped();
+    refuse_unknown_objective(config_, header_);
+    return job_.team == nullptr || job_.team->is_leader() ? lead() : follow();
+  }
+
+ private:
+  bool tell(const SweepProgress& progress) {
+    if (observer_ && !observer_(progress)) is_stopping_ = true;
+    return !is_stopping_;
+  }
+
+  static SweepReport stopped() {
+    SweepReport report;
+    report.stopped = true;
+    return report;
+  }
+
+  SweepReport lead() {
+    prepare_sweep_folder(job_.output);
+    SweepStore store(job_.output, first_line());
+    remove_file(job_.output / kRunName);
+    write_file(job_.output / kSweepConfigName, json_text(config_.json_with_inputs()));
+    if (job_.team != nullptr) job_.team->begin(true);
+    const Observer go_on = [this](const Progress&) { return !is_stopping_; };
+    const BlockRunner runner(header_, runs_, go_on);
+    SweepQueue queue(store, header_, job_.shard, limits(runner));
+    run_blocks(queue, runner, job_.threads, [&] { watch(queue); });
+    if (!queue.is_complete()) return stopped();
+    return report(store, queue.progress().second);
+  }
+
+  nlohmann::json first_line() const {
+    nlohmann::json line = to_json(header_);
+    if (!job_.shard.is_all()) line["shard"] = to_string(job_.shard);
+    return line;
+  }
+
+  BlockLimits limits(const BlockRunner& runner) const {
+    const int processes = job_.team == nullptr ? 1 : job_.team->processes();
+    BlockLimits limits;
+    limits.workers = static_cast<std::size_t>(job_.threads) * static_cast<std::size_t>(processes);
+    limits.most_cells = runner.most_cells();
+    return limits;
+  }
+
+  void watch(SweepQueue& queue) {
+    const auto tick = [&] {
+      const auto [done, known] = queue.progress();
+      if (!tell({done, known})) queue.stop();
+    };
+    if (job_.team != nullptr) return job_.team->serve(queue, tick);
+    while (!queue.wait_for_end(kTick)) tick();
+  }
+
+  SweepReport report(const SweepStore& store, std::size_t cells) {
+    SweepReport report;
+    report.losses = losses_of(runs_);
+    if (!job_.shard.is_all()) {
+      report.summary = fmt::format(
+          "shard {}: {} cells on recordings are in {}; esi-sweep merge puts the shards together\n",
+          to_string(job_.shard), cells, job_.output.string());
+      return report;
+    }
+    const double wall_s = std::chrono::duration<double>(Clock::now() - began_).count();
+    report.summary = write_results(job_.output, job_.tool, header_, store.records(), {job_.threads, wall_s});
+    report.has_results = true;
+    return report;
+  }
+
+  SweepReport follow() {
+    SweepReport report;
+    if (!job_.team->begin(false)) return stopped();
+    const Observer go_on = [this](const Progress&) { return !is_stopping_; };
+    const BlockRunner runner(header_, runs_, go_on);
+    const std::unique_ptr<SweepWork> work = job_.team->leaders_work();
+    run_blocks(*work, runner, job_.threads, {});
+    return report;
+  }
+
+  const SweepJob& job_;
+  const SweepConfig& config_;
+  const SweepObserver& observer_;
+  Clock::time_point began_ = Clock::now();
+  std::atomic<bool> is_stopping_{false};
+  SweepHeader header_;
+  std::vector<InputRun> runs_;
+};
+
+}  // namespace
+
+SweepReport run_sweep(const SweepJob& job, const SweepConfig& config, const SweepObserver& observer) {
+  return Sweeper(job, config, observer).run();
+}
+
+}  // namespace esi

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "esi/sweep/sweep_header.hpp"
+#include "esi/sweep/sweep_job.hpp"
+
+namespace esi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kSample_s = 2.0;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// The middle of the longest phase.
+Interval sample_of(const SweptRecording& recording) {
+  const auto longest = std::max_element(
+      recording.phases.begin(), recording.phases.end(),
+      [](const Phase& a, const Phase& b) { return a.interval.duration_us() < b.interval.duration_us(); });
+  const Interval whole = longest->interval;
+  const std::int64_t half_us = std::min(us_from_seconds(kSample_s), whole.duration_us()) / 2;
+  const std::int64_t middle_us = whole.begin_us + whole.duration_us() / 2;
+  return {middle_us - half_us, middle_us + half_us};
+}
+
+/// Of one cell, for a second of the recording.
+double measured_s(const SweepConfig& config, const InputRun& run, const SweptRecording& recording) {
+  const Interval sample = sample_of(recording);
+  const auto evaluation_s = [&](const std::vector<std::size_t>& cells) {
+    EvalConfig eval = config.eval_config(config.grid(), cells);
+    eval.frames.start_s = static_cast<double>(sample.begin_us) * 1e-6;
+    eval.frames.end_s = static_cast<double>(sample.end_us) * 1e-6;
+    eval.frames.duration_s.reset();
+    InputRun input;
+    input.input = run.input;
+    input.truth = run.truth;
+    const auto began = Clock::now();
+    evaluate(eval, {std::move(input)}, 1, {});
+    return seconds_since(began);
+  };
+  const double decode_s = evaluation_s({});  // up to the sample, which has nothing to do with cells
+  return std::max(0.0, evaluation_s({0}) - decode_s) / (static_cast<double>(sample.duration_us()) * 1e-6);
+}
+
+std::string axes_text(const SweepGrid& grid) {
+  std::string text;
+  for (const SweepAxis& axis : grid.axes()) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : " x ", axis.values.size(), axis.option);
+  }
+  return text.empty() ? "no axis" : text;
+}
+
+}  // namespace
+
+std::string plan_text(const SweepConfig& config, int threads) {
+  config.check();
+  std::vector<InputRun> runs;
+  const auto began = Clock::now();
+  const SweepHeader header = survey(config, runs, {});
+  const double survey_s = seconds_since(began);
+  double duration_s = 0.0;
+  for (const SweptRecording& recording : header.recordings) duration_s += recording.duration_s;
+  const SweepGrid grid = config.grid();
+  const double cell_s = measured_s(config, runs.front(), header.recordings.front());
+  const double work_s = cell_s * duration_s * static_cast<double>(grid.cells());
+  const double hours = (work_s / threads + survey_s) / 3600.0;
+  std::string text = fmt::format("cells: {} ({})\nrecordings: {}, {:.1f} s in all\n", grid.cells(),
+                                 axes_text(grid), header.recordings.size(), duration_s);
+  text += fmt::format("time: about {:.2g} hours with {} thread{}: a cell takes {:.2g} s for a second of {}\n",
+                      hours, threads, threads == 1 ? "" : "s", cell_s, header.recordings.front().path);
+  if (config.search.search == SearchOptions::Search::halving) {
+    text += "halving takes less: detections are at least 5 times fewer, reconstruction is not\n";
+  }
+  return text;
+}
+
+}  // namespace esi

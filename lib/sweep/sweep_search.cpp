@@ -1,0 +1,39 @@
+#include "esi/sweep/sweep_search.hpp"
+
+#include <algorithm>
+
+namespace esi {
+
+SweepSearch::SweepSearch(const SearchOptions& options, const BootstrapOptions& bootstrap, std::int64_t stride)
+    : options_(options), bootstrap_(bootstrap), stride_(stride) {
+  if (options_.search == SearchOptions::Search::full) options_.first_stride = 1;
+  for (std::int64_t coarse = options_.first_stride; coarse > 1; coarse /= 2) ++rounds_;
+}
+
+FrameShare SweepSearch::frames(std::int64_t round) const {
+  const std::int64_t finest = options_.first_stride * stride_;
+  if (round == 0) return {finest, 0};
+  const std::int64_t stride = finest >> (round - 1);  // of what has been judged before
+  return {stride, stride / 2};
+}
+
+std::vector<std::size_t> SweepSearch::survivors(const CellLedger& ledger,
+                                                const std::vector<std::size_t>& cells) const {
+  std::vector<std::size_t> left = ranked(ledger, cells, options_.objective);
+  left.resize((left.size() + 1) / 2);
+  const Score best = ledger.joined(left.front(), options_.objective);
+  const auto is_worse = [&](std::size_t cell) {
+    if (cell == left.front()) return false;
+    const auto interval =
+        paired_difference(ledger.joined(cell, options_.objective), best, bootstrap_).bootstrap;
+    return interval && interval->high < 0.0;
+  };
+  const std::size_t first = left.front();
+  std::vector<std::size_t> kept;
+  std::copy_if(left.begin(), left.end(), std::back_inserter(kept),
+               [&](std::size_t cell) { return cell == first || !is_worse(cell); });
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+}  // namespace esi

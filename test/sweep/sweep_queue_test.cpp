@@ -1,0 +1,179 @@
+#include "esi/sweep/sweep_queue.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "esi/core/error.hpp"
+#include "esi/sweep/sweep_results.hpp"
+#include "support/temp_folder.hpp"
+
+using namespace esi;
+using Catch::Matchers::Contains;
+using esi::test::TempFolder;
+
+namespace {
+
+/// 12 cells on two recordings.
+SweepHeader header_of(SearchOptions::Search search = SearchOptions::Search::full) {
+  SweepHeader header;
+  header.version = "test";
+  header.config.add_axis(parse_axis("tau_s=1:6:1"));
+  header.config.add_axis(parse_axis("n=1,2"));
+  header.config.search.search = search;
+  header.config.search.first_stride = 4;
+  for (const char* const path : {"a.h5", "b.h5"}) {
+    header.recordings.push_back(
+        {path, "truth.json", 10, "00000000", "00000000", 40.0, {{"all", {0, 40'000'000}}}});
+  }
+  return header;
+}
+
+/// A made-up truth: cell 7 is best by far; 4 to 6 are as good on the frames of the first round alone. A frame
+/// a second, of those that the round shares out.
+std::vector<CellRecord> records_of(const SweepBlock& block) {
+  std::vector<CellRecord> records;
+  for (const std::size_t cell : block.cells) {
+    CellRecord& record = records.emplace_back();
+    record = {cell, block.recording, block.round, {}, {PhaseRecord{}}};
+    for (std::int64_t i = block.frames.first; i < 40; i += block.frames.stride) {
+      const bool is_deceptive = cell >= 4 && cell <= 6;
+      const bool is_detected =
+          cell == 7 || (is_deceptive ? i % 4 == 0 : (i * 7) % 12 < static_cast<int>(cell));
+      record.frames.push_back({i * 1'000'000, 0, is_detected});
+    }
+  }
+  return records;
+}
+
+void work_off(SweepQueue& queue, double seconds = 10.0) {
+  while (const auto block = queue.next()) queue.finish(*block, records_of(*block), seconds);
+}
+
+std::string rates_in(const SweepOutcome& outcome) {
+  std::string text;
+  for (const CellOutcome& cell : outcome.cells) {
+    text += std::to_string(cell.total.frames.hits) + "/" + std::to_string(cell.total.frames.of) + " ";
+  }
+  return text + "best " + std::to_string(outcome.best);
+}
+
+}  // namespace
+
+TEST_CASE("Every cell is handed out once on every recording, in blocks of one recording") {
+  const TempFolder folder;
+  const SweepHeader header = header_of();
+  SweepStore store(folder.path(), to_json(header));
+  SweepQueue queue(store, header, {}, {1, 5, 60.0});
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  while (const auto block = queue.next()) {
+    CHECK(block->cells.size() <= 5);
+    for (const std::size_t cell : block->cells) CHECK(seen.insert({cell, block->recording}).second);
+    queue.finish(*block, records_of(*block), 1.0);
+  }
+  CHECK(seen.size() == 24);
+  CHECK(queue.is_complete());
+  CHECK(store.records().size() == 24);
+  CHECK(outcome_of(header, store.records()).best == 7);
+  CHECK(missing_cells(header, store.records()).empty());
+}
+
+TEST_CASE("Blocks take about a minute, as the last one's time tells") {
+  const TempFolder folder;
+  const SweepHeader header = header_of();
+  SweepStore store(folder.path(), to_json(header));
+  SweepQueue queue(store, header, {}, {1, 100, 60.0});
+  auto block = queue.next();
+  REQUIRE(block);
+  CHECK(block->cells.size() == 1);  // nothing is known yet
+  queue.finish(*block, records_of(*block), 20.0);
+  block = queue.next();
+  CHECK(block->cells.size() == 3);
+  queue.finish(*block, records_of(*block), 360.0);
+  CHECK(queue.next()->cells.size() == 1);
+}
+
+TEST_CASE("Shards share the cells out, and together they are the sweep") {
+  const SweepHeader header = header_of();
+  std::vector<CellRecord> all;
+  for (std::size_t index = 1; index <= 3; ++index) {
+    const TempFolder folder;
+    SweepStore store(folder.path(), to_json(header));
+    SweepQueue queue(store, header, {index, 3}, {2, 100, 60.0});
+    work_off(queue);
+    CHECK(store.records().size() == 8);
+    CHECK(missing_cells(header, all).size() == 24 - all.size());
+    all.insert(all.begin(), store.records().begin(), store.records().end());
+  }
+  const TempFolder folder;
+  SweepStore store(folder.path(), to_json(header));
+  SweepQueue queue(store, header, {}, {1, 1, 60.0});
+  work_off(queue);
+  CHECK(rates_in(outcome_of(header, all)) == rates_in(outcome_of(header, store.records())));
+}
+
+TEST_CASE("A shard is I/N") {
+  CHECK(parse_shard("2/3").index == 2);
+  CHECK(parse_shard("2/3").count == 3);
+  for (const char* const text : {"", "2", "0/3", "4/3", "2/3x", "/3", "2/", "-1/3", "a/b"}) {
+    CHECK_THROWS_WITH(parse_shard(text), Contains("I/N"));
+  }
+}
+
+TEST_CASE("Halving judges few cells on many frames, however often it is interrupted") {
+  const SweepHeader header = header_of(SearchOptions::Search::halving);
+  const TempFolder folder, other;
+  {
+    SweepStore store(folder.path(), to_json(header));
+    SweepQueue queue(store, header, {}, {1, 100, 60.0});
+    work_off(queue);
+    std::size_t judged = 0;
+    for (const CellRecord& record : store.records()) judged += record.frames.size();
+    CHECK(judged <= 2 * 40 * 12 / 2);
+    const SweepOutcome outcome = outcome_of(header, store.records());
+    CHECK(outcome.best == 7);
+    CHECK(outcome.cells[7].total.frames.of == 80);
+    CHECK_FALSE(outcome.cells[7].dropped_after_round);
+    CHECK(outcome.cells[0].dropped_after_round == 0);
+    CHECK(missing_cells(header, store.records()).empty());
+  }
+  std::string rates;
+  for (int interrupted_after = 0;; ++interrupted_after) {
+    SweepStore store(other.path(), to_json(header));
+    SweepQueue queue(store, header, {}, {1, 100, 60.0});
+    const auto block = queue.next();
+    if (!block) {
+      CHECK(interrupted_after > 3);
+      CHECK(missing_cells(header, store.records()).empty());
+      rates = rates_in(outcome_of(header, store.records()));
+      break;
+    }
+    queue.finish(*block, records_of(*block), 1.0);
+  }
+  SweepStore store(folder.path(), to_json(header));
+  CHECK(rates == rates_in(outcome_of(header, store.records())));
+}
+
+TEST_CASE("Threads wait for a round's end, and end together") {
+  const TempFolder folder;
+  const SweepHeader header = header_of(SearchOptions::Search::halving);
+  SweepStore store(folder.path(), to_json(header));
+  SweepQueue queue(store, header, {}, {3, 2, 60.0});
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i) threads.emplace_back([&] { work_off(queue, 1.0); });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(queue.is_complete());
+  CHECK(outcome_of(header, store.records()).best == 7);
+}
+
+TEST_CASE("A queue that was stopped hands nothing out and is not complete") {
+  const TempFolder folder;
+  const SweepHeader header = header_of();
+  SweepStore store(folder.path(), to_json(header));
+  SweepQueue queue(store, header, {}, {});
+  REQUIRE(queue.next());
+  queue.stop();
+  CHECK_FALSE(queue.next());
+  CHECK_FALSE(queue.is_complete());
+}
