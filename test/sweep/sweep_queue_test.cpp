@@ -155,6 +155,34 @@ TEST_CASE("Halving judges few cells on many frames, however often it is interrup
   CHECK(rates == rates_in(outcome_of(header, store.records())));
 }
 
+TEST_CASE("The best cell is one of those that were judged on all frames") {
+  const SweepHeader header = header_of(SearchOptions::Search::halving);
+  std::vector<CellRecord> records = records_of({0, 0, {4, 0}, {5, 7}});
+  for (const std::int64_t round : {1, 2}) {
+    records.push_back(records_of({0, round, {4 / round, 2 / round}, {5}}).front());
+  }
+  const SweepOutcome outcome = outcome_of(header, records);  // 7 found all, but was dropped
+  CHECK(outcome.best == 5);
+  CHECK(outcome.cells[7].dropped_after_round == 0);
+}
+
+TEST_CASE("A cell that is missing in any round is missing") {
+  const SweepHeader header = header_of(SearchOptions::Search::halving);
+  const TempFolder folder;
+  SweepStore store(folder.path(), to_json(header));
+  SweepQueue queue(store, header, {}, {1, 100, 60.0});
+  work_off(queue);
+  for (const CellRecord& lost : store.records()) {
+    std::vector<CellRecord> others;
+    for (const CellRecord& record : store.records()) {
+      if (&record != &lost) others.push_back(record);
+    }
+    const auto missing = missing_cells(header, others);
+    REQUIRE(missing.size() == 1);
+    CHECK(missing.front() == std::pair(lost.cell, lost.recording));
+  }
+}
+
 TEST_CASE("Threads wait for a round's end, and end together") {
   const TempFolder folder;
   const SweepHeader header = header_of(SearchOptions::Search::halving);
