@@ -117,6 +117,57 @@ TEST_CASE("events outside the sensor are left out and counted, and too many are 
   CHECK_THROWS_WITH(drain(too_many), Contains("11 of 1000") && Contains("largest x is 10, the largest y 25"));
 }
 
+// Where the size is known most events take a shorter way through the gate.
+TEST_CASE("a known sensor size changes nothing but what lies outside") {
+  std::mt19937 random(GENERATE(1u, 2u, 3u, 4u));
+  const auto between = [&](std::int64_t a, std::int64_t b) {
+    return std::uniform_int_distribution(a, b)(random);
+  };
+  const std::int64_t first_us = GENERATE(0, 1722000000000000, (std::int64_t{1} << 60) - 20000000);
+  std::vector<Event> events;
+  for (std::int64_t t_us = first_us; events.size() < 3000; t_us += between(0, 100)) {
+    const std::int64_t kind = between(0, 299);
+    const std::int64_t off_us = kind == 0   ? -between(1, 1000)
+                                : kind == 1 ? -between(1001, 9000)
+                                : kind == 2 ? between(1000001, 5000000)
+                                            : 0;
+    events.push_back({t_us + off_us, static_cast<std::uint16_t>(between(0, 19)), 7, between(0, 1) == 1});
+    if (events.size() == 1500) t_us += 800000;  // a pause
+  }
+  const auto packet_size = GENERATE(1u, 100u, 4000u);
+  EventGate plain = gate_over(packets_of(events, packet_size));
+  RecordingHeader header;
+  header.sensor = SensorSize{20, 8};
+  EventGate sized = gate_over(packets_of(events, packet_size), {}, header);
+  const Packet expected = drain(plain);
+  CHECK(expected.events.size() > 2950);
+  CHECK(plain.losses().of(Drop::backward_time) > 0);
+  CHECK(plain.losses().of(Drop::time_jump) > 0);
+  CHECK(drain(sized).events == expected.events);
+  CHECK(sized.losses().text() == plain.losses().text());
+
+  events.insert(events.begin() + 2000, {events[1999].t_us, 20, 7, true});
+  events.insert(events.begin() + 2000, {events[1999].t_us, 3, 8, true});
+  EventGate outside = gate_over(packets_of(events, packet_size), {}, header);
+  CHECK(drain(outside).events == expected.events);
+  CHECK(outside.losses().of(Drop::outside_sensor) == 2);
+}
+
+TEST_CASE("errors are the same where the sensor size is known") {
+  RecordingHeader header;
+  header.sensor = SensorSize{10, 1};
+  EventGate backward = gate_over(packets_of(events_at({5, 10, 1000000, 1999999, 3}), 5), {}, header);
+  CHECK_THROWS_WITH(drain(backward), Contains("goes back by 1999996 us after event 4 (at 1999999 us)"));
+  EventGate absurd = gate_over(
+      packets_of(events_at({(std::int64_t{1} << 60) - 2, (std::int64_t{1} << 60) + 1}), 2), {}, header);
+  CHECK_THROWS_WITH(drain(absurd), Contains("can't be right"));
+  auto wide = events_at({1, 2, 3, 4});
+  wide[1].x = 9;
+  wide[2].y = 1;
+  EventGate outside = gate_over(packets_of(wide, 4), {}, header);
+  CHECK_THROWS_WITH(drain(outside), Contains("the largest x is 9, the largest y 1"));
+}
+
 TEST_CASE("the option --size overrides the file's own sensor size; without either there is none") {
   RecordingHeader header;
   header.sensor = SensorSize{20, 20};
