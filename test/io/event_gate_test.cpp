@@ -123,7 +123,8 @@ TEST_CASE("a known sensor size changes nothing but what lies outside") {
   const auto between = [&](std::int64_t a, std::int64_t b) {
     return std::uniform_int_distribution(a, b)(random);
   };
-  const std::int64_t first_us = GENERATE(0, 1722000000000000, (std::int64_t{1} << 60) - 20000000);
+  const std::int64_t first_us =
+      GENERATE(std::int64_t{0}, std::int64_t{1722000000000000}, (std::int64_t{1} << 60) - 20000000);
   std::vector<Event> events;
   for (std::int64_t t_us = first_us; events.size() < 3000; t_us += between(0, 100)) {
     const std::int64_t kind = between(0, 299);

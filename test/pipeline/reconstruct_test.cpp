@@ -196,7 +196,9 @@ TEST_CASE("how much has been read counts up to a crop's end, not the recording's
   CHECK(fractions.front() < 0.7);
   CHECK(std::is_sorted(fractions.begin(), fractions.end()));
   CHECK(source.fraction_read() == 1.0);
-  CHECK_FALSE(CropSource(source_of({}), {}, std::nullopt).fraction_read());
+  CropSource whole(source_of(packets_of(one_event_each_ms(10), 5)), {}, std::nullopt);
+  CHECK(whole.next(packet));
+  CHECK_FALSE(whole.fraction_read());  // as its source, which can't tell
 }
 
 TEST_CASE("a region of interest moves its corner to the origin") {
