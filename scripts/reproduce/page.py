@@ -106,7 +106,7 @@ def logs(where):
 
 def tuning_part(plan):
     begin_s, end_s, fps = plan.tuning_part
-    return f"{begin_s} to {end_s} s, {fps} frames a second, {(end_s - begin_s) * fps} frames; those of `edi`, one per intensity frame"
+    return f"{begin_s} to {end_s} s, {fps} frames a second, {(end_s - begin_s) * fps} frames; `edi` has one per intensity frame"
 
 
 def listed(seeds):
