@@ -87,6 +87,7 @@ TEST_CASE("a report has every file, and its numbers are those of a count over de
   CHECK(report["inputs"][0]["events"]["count"] == 1178920);
   CHECK(report["config"]["family"] == "tag36h11");
   check_page(out / "report.html");
+  CHECK_THAT(content_of(out / "report.html"), Contains("<img src=\"data:image/png"));
   for (const char* const track : {"track_0_0.tum", "track_0_1.tum", "truth_0.tum"}) check_track(out / track);
   for (const Row& row : csv_rows(out / "cost.csv")) {
     CHECK(row.at("frames") == "300");

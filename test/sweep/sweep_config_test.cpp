@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "esi/core/error.hpp"
+#include "support/shared_data.hpp"
 
 using namespace esi;
 using Catch::Matchers::Contains;
@@ -91,6 +92,19 @@ TEST_CASE("A config written by hand may be short, its recordings lie beside it")
   REQUIRE(config.inputs.size() == 1);
   CHECK(config.inputs[0].path == "folder/a.h5");
   CHECK(config.inputs[0].truth == "b.json");
+}
+
+TEST_CASE("Every config for sweeps loads, and its grid has more than one cell") {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(esi::test::source_dir() / "configs/sweep")) {
+    SweepConfig config;
+    config.load(entry.path());
+    CHECK_NOTHROW(config.check());
+    CHECK(config.grid().cells() > 1);
+    for (const EvalInput& input : config.inputs) CHECK(std::filesystem::exists(input.path));
+    ++count;
+  }
+  CHECK(count >= 2);
 }
 
 TEST_CASE("What is wrong in a sweep is said before any work") {
