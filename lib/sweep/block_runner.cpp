@@ -84,6 +84,7 @@ void run_blocks(SweepWork& work, const BlockRunner& runner, int threads,
     }
   };
   std::vector<std::thread> others;
+  others.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) others.emplace_back([&] { guarded(work_off); });
   if (meanwhile) guarded(meanwhile);
   for (std::thread& thread : others) thread.join();

@@ -165,6 +165,7 @@ SweepGrid SweepConfig::grid() const {
   }
   std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<SweepAxis> axes;
+  axes.reserve(placed.size());
   for (auto& [place, axis] : placed) axes.push_back(std::move(axis));
   refuse_too_many(axes);
   return SweepGrid(std::move(axes));
