@@ -18,7 +18,7 @@ function(esi_install_headers layer)
     install(FILES ${source}/output/file_descriptor.hpp ${source}/output/frame_sink.hpp
       ${source}/output/journal_file.hpp ${source}/output/run_manifest.hpp DESTINATION ${target}/output)
   endif()
-  foreach(part IN ITEMS recon/steps pipeline/evaluation)
+  foreach(part IN ITEMS recon/flow recon/steps pipeline/evaluation)
     if(part MATCHES "^${layer}/(.*)$")
       file(GLOB headers CONFIGURE_DEPENDS ${source}/${CMAKE_MATCH_1}/*.hpp)
       install(FILES ${headers} DESTINATION ${target}/${CMAKE_MATCH_1})

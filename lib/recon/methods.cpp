@@ -13,6 +13,7 @@
 #include "esi/recon/edi.hpp"
 #include "esi/recon/esi.hpp"
 #include "esi/recon/esi_adaptive.hpp"
+#include "esi/recon/flow/esi_flow.hpp"
 #include "esi/recon/network.hpp"
 
 namespace esi {
@@ -49,6 +50,8 @@ constexpr std::array kMethods{
            FrameUse::none, 8, configure<EsiOptions, Esi>},
     Method{"esi-adaptive", "ESI with polarity balance, background filter and smoothing",
            "ours; docs/methods.md", FrameUse::none, 48, configure<EsiAdaptiveOptions, EsiAdaptive>},
+    Method{"esi-flow", "the image whose motion explains the events, solved for in every window",
+           "ours; docs/esi_flow.md", FrameUse::none, 160, configure<EsiFlowOptions, EsiFlow>},
     Method{"accumulator", "leaky accumulator, the camera viewer's own",
            "iniVation dv-processing, Accumulator", FrameUse::none, 16,
            configure<AccumulatorOptions, Accumulator>},

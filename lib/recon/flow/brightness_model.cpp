@@ -1,0 +1,83 @@
+#include "esi/recon/flow/brightness_model.hpp"
+
+#include <cmath>
+
+#include "esi/recon/flow/simd.hpp"
+
+namespace esi {
+namespace {
+
+
+ESI_SIMD void accumulate(int corners, const float* vx, const float* vy, const float* b, float memory,
+                         float per_px, float weight, float* dd, float* de, float* ee, float* a_d, float* a_e) {
+  for (int x = 0; x < corners; ++x) {
+    const float along_d = 0.5F * (vx[x] + vy[x]);
+    const float along_e = 0.5F * (vx[x] - vy[x]);
+    const float length = std::sqrt(vx[x] * vx[x] + vy[x] * vy[x]);
+    const float lambda = memory / (1.0F + length * per_px);
+    dd[x] = lambda * dd[x] + weight * along_d * along_d;
+    de[x] = lambda * de[x] + weight * along_d * along_e;
+    ee[x] = lambda * ee[x] + weight * along_e * along_e;
+    a_d[x] = lambda * a_d[x] - weight * along_d * b[x];
+    a_e[x] = lambda * a_e[x] - weight * along_e * b[x];
+  }
+}
+
+/// Adds what the corners below these pixels, or those above the next row's, give to minus the divergence.
+ESI_SIMD void spread(int corners, const float* a_d, const float* a_e, float* upper, float* lower) {
+  for (int x = 0; x < corners; ++x) upper[x] -= a_d[x];
+  for (int x = 0; x < corners; ++x) upper[x + 1] += a_e[x];
+  for (int x = 0; x < corners; ++x) lower[x] -= a_e[x];
+  for (int x = 0; x < corners; ++x) lower[x + 1] += a_d[x];
+}
+
+}  // namespace
+
+BrightnessModel::BrightnessModel(cv::Size size, const Options& options)
+    : options_(options),
+      operator_(size),
+      a_d_(size, 0.0F),
+      a_e_(size, 0.0F),
+      log_intensity_(size, 0.0F),
+      moved_d_(size, 0.0F),
+      moved_e_(size, 0.0F),
+      moved_l_(size, 0.0F),
+      lookup_(size),
+      vx_(static_cast<std::size_t>(size.width)),
+      vy_(vx_.size()),
+      b_(vx_.size()) {
+  operator_.eps = options.eps;
+  operator_.mu = options.mu;
+}
+
+void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, CellGrid& cells) {
+  for (int y = 0; y < log_intensity_.rows; ++y) {
+    cells.interpolate_row(field.x, y, 1.0F, vx_.data());
+    cells.interpolate_row(field.y, y, 1.0F, vy_.data());
+    move_row(y, b);
+  }
+  cv::swap(a_d_, moved_d_);
+  cv::swap(a_e_, moved_e_);
+  cv::swap(log_intensity_, moved_l_);
+}
+
+void BrightnessModel::move_row(int y, const cv::Mat1f& b) {
+  lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
+  lookup_.sample(log_intensity_, moved_l_[y]);
+  if (y + 1 == log_intensity_.rows) return;
+  lookup_.sample(a_d_, moved_d_[y]);
+  lookup_.sample(a_e_, moved_e_[y]);
+  lookup_.place(y, vx_.data(), vy_.data(), 0.5F, 0.5F);
+  lookup_.sample(b, b_.data());
+  accumulate(log_intensity_.cols - 1, vx_.data(), vy_.data(), b_.data(), options_.memory,
+             1.0F / options_.memory_px, options_.weight, operator_.dd[y], operator_.de[y], operator_.ee[y],
+             moved_d_[y], moved_e_[y]);
+}
+
+void BrightnessModel::right_hand_side(cv::Mat1f& rhs) const {
+  rhs.create(a_d_.size());
+  rhs.setTo(0.0F);
+  for (int y = 0; y + 1 < rhs.rows; ++y) spread(rhs.cols - 1, a_d_[y], a_e_[y], rhs[y], rhs[y + 1]);
+}
+
+}  // namespace esi

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "esi/recon/flow/bilinear_row.hpp"
+#include "esi/recon/flow/cell_grid.hpp"
+#include "esi/recon/flow/motion_estimator.hpp"
+#include "esi/recon/flow/motion_operator.hpp"
+
+namespace esi {
+
+/// What all windows so far say about log intensity L, carried along with the motion v (px a window): b = -v .
+/// grad L in each, as a least-squares problem
+///   L = argmin sum grad L^T A grad L - 2 a^T grad L + eps |grad L|^2 + mu L^2                    (4)
+/// A and a are of the corners between pixels, as those of MotionOperator are.
+class BrightnessModel {
+ public:
+  struct Options {
+    float eps;         ///< smoothness, px^2
+    float mu;          ///< pull towards 0
+    float memory;      ///< what is left after a window, even without motion
+    float memory_px;   ///< ell: after this path half of it is forgotten
+    float weight;      ///< of a window
+  };
+
+  BrightnessModel(cv::Size size, const Options& options);
+
+  /// Takes a window of events b that moved by `field`:
+  ///   A <- lambda A + weight v v^T,   a <- lambda a(x - v) - weight v b(x - v/2),   L <- L(x - v),
+  ///   lambda = memory / (1 + |v| / memory_px)                                                     (5)
+  void take(const cv::Mat1f& b, const MotionField& field, CellGrid& cells);
+
+  /// The problem's right-hand side: minus the divergence of a.
+  void right_hand_side(cv::Mat1f& rhs) const;
+
+  MotionOperator& normal_operator() { return operator_; }
+
+  cv::Mat1f& log_intensity() { return log_intensity_; }
+
+ private:
+  void move_row(int y, const cv::Mat1f& b);
+
+  Options options_;
+  MotionOperator operator_;
+  cv::Mat1f a_d_, a_e_;  ///< a = (a_d + a_e, a_d - a_e): a . grad L = a_d D + a_e E
+  cv::Mat1f log_intensity_;
+  cv::Mat1f moved_d_, moved_e_, moved_l_;
+  BilinearRow lookup_;
+  std::vector<float> vx_, vy_, b_;
+};
+
+}  // namespace esi

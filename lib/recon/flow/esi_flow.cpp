@@ -1,0 +1,147 @@
+#include "esi/recon/flow/esi_flow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+namespace esi {
+namespace {
+
+/// Parameters are for windows of this length. Of another length, a window counts by its share of it.
+constexpr double kReferenceWindow_us = 10'000.0;
+/// So many windows' flow comes from sums of event images: there is no L yet.
+constexpr std::int64_t kFirstWindows = 8;
+constexpr float kNeutral = 127.5F;
+/// Of L, below which there is nothing to show.
+constexpr double kLeastDeviation = 1e-6;
+
+cv::Size cv_size(SensorSize size) { return {size.width_px, size.height_px}; }
+
+BrightnessModel::Options model_options(const EsiFlowOptions& options) {
+  const double share = static_cast<double>(options.window_us) / kReferenceWindow_us;
+  return {.eps = static_cast<float>(options.eps),
+          .mu = static_cast<float>(options.mu),
+          .memory = static_cast<float>(std::pow(options.memory, share)),
+          .memory_px = static_cast<float>(options.memory_px),
+          .weight = static_cast<float>(1.0 / share)};
+}
+
+MultilevelSolver::Options solver_options(const EsiFlowOptions& options) {
+  return {static_cast<int>(options.cycles),
+          {static_cast<int>(options.steps_full), static_cast<int>(options.steps_half),
+           static_cast<int>(options.steps_quarter)}};
+}
+
+}  // namespace
+
+void EsiFlowOptions::declare(OptionTable& table) {
+  table.integer("window_us", window_us, {1000, 1'000'000}, "us", "events of so long are taken at once");
+  table.toggle("balance", balance, "let ON and OFF events weigh by how rare they are: thresholds differ");
+  table.real("flow_blur_px", flow_blur_px, {0.1, 20.0}, "px",
+             "deviation of a Gaussian before motion is estimated, at half resolution");
+  table.integer("cell_px", cell_px, {4, 256}, "px", "side of the cells that have a motion of their own");
+  table.real("flow_regularisation", flow_regularisation, {1e-6, 1e6}, "",
+             "how much a cell's motion is held by its neighbours'");
+  table.real("event_pair_weight", event_pair_weight, {0.0, 1e6}, "",
+             "how much two event images count for the motion, beside the reconstruction");
+  table.integer("flow_rounds", flow_rounds, {1, 20}, "", "how often a window's motion is improved");
+  table.real("memory", memory, {0.0, 1.0}, "", "what is left of the past after 10 ms without motion");
+  table.real("memory_px", memory_px, {0.01, 1e6}, "px", "half of the past is forgotten over this path");
+  table.real("eps", eps, {1e-6, 1e3}, "px^2", "smoothness of the image");
+  table.real("mu", mu, {1e-9, 1e3}, "", "pull of the image towards mid-grey");
+  table.integer("cycles", cycles, {1, 100}, "", "how often all levels are solved for a window");
+  table.integer("steps_full", steps_full, {0, 1000}, "", "steps of the solver at full resolution");
+  table.integer("steps_half", steps_half, {0, 1000}, "", "at half");
+  table.integer("steps_quarter", steps_quarter, {0, 1000}, "", "at a quarter");
+  table.real("contrast_deviations", contrast_deviations, {0.1, 100.0}, "", "so many deviations of the image are shown white");
+}
+
+EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
+    : options_(options),
+      windows_(EventWindows::of_duration(options.window_us)),
+      event_image_(size, options.balance),
+      smooth_(options.flow_blur_px),
+      motion_(cv_size(size), {static_cast<double>(options.cell_px), options.flow_regularisation,
+                              static_cast<int>(options.flow_rounds)}),
+      cells_(cv_size(size), static_cast<double>(options.cell_px)),
+      model_(cv_size(size), model_options(options)),
+      solver_(cv_size(size), solver_options(options)),
+      field_{cv::Mat1f(motion_.cells().size(), 0.0F), cv::Mat1f(motion_.cells().size(), 0.0F)} {}
+
+void EsiFlow::take(std::span<const Event> events, std::span<const float> weights) {
+  windows_.add(events, weights, step());
+  if (!events.empty()) last_event_us_ = events.back().t_us;
+}
+
+EventWindows::Take EsiFlow::step() {
+  return [this](std::span<const Event> window, std::span<const float> weights) { take_window(window, weights); };
+}
+
+std::int64_t EsiFlow::index_of(std::int64_t t_us) const {
+  return t_us / options_.window_us - (t_us % options_.window_us < 0 ? 1 : 0);
+}
+
+void EsiFlow::take_window(std::span<const Event> window, std::span<const float> weights) {
+  const std::int64_t index = index_of(window.front().t_us);
+  const cv::Mat1f& b = event_image_.of(window, weights);
+  smooth_(b, events_);
+  if (last_window_ && index != *last_window_ + 1) {
+    // Nothing has happened since: nothing moved.
+    events_before_.setTo(0.0F);
+    field_.x.setTo(0.0F);
+    field_.y.setTo(0.0F);
+  }
+  last_window_ = index;
+  if (windows_seen_ < kFirstWindows) {
+    estimate_first_motion();
+  } else {
+    estimate_motion();
+  }
+  ++windows_seen_;
+  events_.copyTo(events_before_);
+  model_.take(b, field_, cells_);
+  model_.right_hand_side(rhs_);
+  solver_.solve(model_.normal_operator(), rhs_, model_.log_intensity());
+}
+
+void EsiFlow::estimate_first_motion() {
+  first_events_.push_back(events_.clone());
+  const std::size_t half = first_events_.size() / 2;
+  if (half == 0) return;
+  cv::Mat1f before(events_.size(), 0.0F);
+  cv::Mat1f after(events_.size(), 0.0F);
+  const auto last = first_events_.end();
+  for (std::size_t i = 1; i <= half; ++i) {
+    after += *(last - static_cast<std::ptrdiff_t>(i));
+    before += *(last - static_cast<std::ptrdiff_t>(half + i));
+  }
+  const MovedPair pair{before, after, static_cast<float>(options_.event_pair_weight), static_cast<float>(half)};
+  motion_.improve({&pair, 1}, field_);
+}
+
+void EsiFlow::estimate_motion() {
+  first_events_.clear();
+  smooth_(model_.log_intensity(), intensity_before_);
+  cv::add(intensity_before_, events_, intensity_after_);
+  const std::array pairs{
+      MovedPair{intensity_before_, intensity_after_, 1.0F, 1.0F},
+      MovedPair{events_before_, events_, static_cast<float>(options_.event_pair_weight), 1.0F}};
+  motion_.improve(pairs, field_);
+}
+
+void EsiFlow::render_levels(std::int64_t t_us, cv::Mat1f& levels) {
+  windows_.end_by(t_us, step());
+  const cv::Mat1f& image = model_.log_intensity();
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(image, mean, deviation);
+  levels.create(image.size());
+  if (deviation[0] < kLeastDeviation) {
+    levels.setTo(kNeutral);
+    return;
+  }
+  const double gain = static_cast<double>(kNeutral) / (options_.contrast_deviations * deviation[0]);
+  image.convertTo(levels, CV_32F, gain, static_cast<double>(kNeutral) - gain * mean[0]);
+}
+
+}  // namespace esi

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "esi/core/event.hpp"
+#include "esi/core/options.hpp"
+#include "esi/recon/event_windows.hpp"
+#include "esi/recon/flow/brightness_model.hpp"
+#include "esi/recon/flow/event_image.hpp"
+#include "esi/recon/flow/half_size.hpp"
+#include "esi/recon/flow/motion_estimator.hpp"
+#include "esi/recon/flow/multilevel_solver.hpp"
+#include "esi/recon/reconstructor.hpp"
+
+namespace esi {
+
+/// Reconstruction that uses motion; docs/esi_flow.md has the equations that are numbered here.
+struct EsiFlowOptions {
+  std::int64_t window_us = 10'000;
+  bool balance = true;
+  double flow_blur_px = 1.2;
+  std::int64_t cell_px = 16;
+  double flow_regularisation = 0.1;
+  double event_pair_weight = 5.0;
+  std::int64_t flow_rounds = 2;
+  double memory = 0.995;
+  double memory_px = 2.0;
+  double eps = 0.02;
+  double mu = 0.0005;
+  std::int64_t cycles = 1;
+  std::int64_t steps_full = 2;
+  std::int64_t steps_half = 6;
+  std::int64_t steps_quarter = 12;
+  double contrast_deviations = 1.5;
+
+  void declare(OptionTable& table);
+};
+
+class EsiFlow final : public Reconstructor {
+ public:
+  EsiFlow(const EsiFlowOptions& options, SensorSize size);
+
+  void render_levels(std::int64_t t_us, cv::Mat1f& levels) override;
+
+ private:
+  void take(std::span<const Event> events, std::span<const float> weights) override;
+  EventWindows::Take step();
+  void take_window(std::span<const Event> window, std::span<const float> weights);
+  void estimate_motion();
+  void estimate_first_motion();
+  std::int64_t index_of(std::int64_t t_us) const;
+
+  EsiFlowOptions options_;
+  EventWindows windows_;
+  EventImage event_image_;
+  SmoothHalf smooth_;
+  MotionEstimator motion_;
+  CellGrid cells_;  ///< over the full resolution
+  BrightnessModel model_;
+  MultilevelSolver solver_;
+  MotionField field_;
+  std::int64_t windows_seen_ = 0;
+  std::vector<cv::Mat1f> first_events_;  ///< smooth event images, until the flow has started
+  cv::Mat1f events_, events_before_, intensity_before_, intensity_after_;  ///< smooth, half resolution
+  cv::Mat1f rhs_;
+  std::optional<std::int64_t> last_event_us_;
+  std::optional<std::int64_t> last_window_;
+};
+
+}  // namespace esi

@@ -1,0 +1,28 @@
+#include "esi/recon/flow/half_size.hpp"
+
+#include <algorithm>
+
+#include "esi/recon/flow/simd.hpp"
+
+namespace esi {
+namespace {
+
+ESI_SIMD void sum_rows(int pairs, const float* upper, const float* lower, float factor, float* out) {
+  for (int x = 0; x < pairs; ++x) {
+    out[x] = factor * ((upper[2 * x] + upper[2 * x + 1]) + (lower[2 * x] + lower[2 * x + 1]));
+  }
+}
+
+}  // namespace
+
+void sum_by_twos(const cv::Mat1f& image, float factor, cv::Mat1f& half) {
+  half.create(half_of(image.size()));
+  for (int y = 0; y < half.rows; ++y) {
+    const float* const upper = image[2 * y];
+    const float* const lower = image[std::min(2 * y + 1, image.rows - 1)];
+    sum_rows(image.cols / 2, upper, lower, factor, half[y]);
+    if (image.cols % 2 == 1) half(y, half.cols - 1) = 2.0F * factor * (upper[image.cols - 1] + lower[image.cols - 1]);
+  }
+}
+
+}  // namespace esi

@@ -1,0 +1,136 @@
+#include "esi/recon/flow/motion_estimator.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "esi/recon/flow/simd.hpp"
+
+namespace esi {
+namespace {
+
+/// Pixels of the full resolution in one of the half.
+constexpr float kHalf = 2.0F;
+
+ESI_SIMD void mean_and_difference(int cols, const float* moved, const float* after, float* mean,
+                                  float* difference) {
+  for (int x = 0; x < cols; ++x) {
+    mean[x] = 0.5F * (moved[x] + after[x]);
+    difference[x] = after[x] - moved[x];
+  }
+}
+
+/// Adds a row's terms of T and rhs, for columns that have both neighbours.
+ESI_SIMD void add_terms(int cols, const float* above, const float* here, const float* below,
+                        const float* difference, float tensor_factor, float rhs_factor, float* xx, float* xy,
+                        float* yy, float* rx, float* ry) {
+  for (int x = 1; x < cols - 1; ++x) {
+    const float gx = here[x + 1] - here[x - 1];
+    const float gy = below[x] - above[x];
+    xx[x] += tensor_factor * gx * gx;
+    xy[x] += tensor_factor * gx * gy;
+    yy[x] += tensor_factor * gy * gy;
+    rx[x] += rhs_factor * gx * difference[x];
+    ry[x] += rhs_factor * gy * difference[x];
+  }
+}
+
+/// [1 2 1] / 4 along both axes, the border going on outside.
+void smooth(cv::Mat1f& cells) {
+  static const cv::Matx13f kKernel(0.25F, 0.5F, 0.25F);
+  cv::sepFilter2D(cells, cells, -1, kKernel, kKernel, cv::Point(-1, -1), 0.0, cv::BORDER_REPLICATE);
+}
+
+/// The mean of the four neighbours, the border going on outside.
+cv::Mat1f neighbours_of(const cv::Mat1f& cells) {
+  static const cv::Matx33f kKernel(0, 0.25F, 0, 0.25F, 0, 0.25F, 0, 0.25F, 0);
+  cv::Mat1f mean;
+  cv::filter2D(cells, mean, -1, kKernel, cv::Point(-1, -1), 0.0, cv::BORDER_REPLICATE);
+  return mean;
+}
+
+void take_median(cv::Mat1f& cells) {
+  cv::Mat1f medians;
+  cv::medianBlur(cells, medians, 3);
+  cells = medians;
+}
+
+}  // namespace
+
+MotionEstimator::MotionEstimator(cv::Size full, const Options& options)
+    : options_(options),
+      half_((full.width + 1) / 2, (full.height + 1) / 2),
+      cells_(half_, options.cell_px / static_cast<double>(kHalf)),
+      lookup_(half_),
+      mean_(half_),
+      difference_(half_) {
+  const auto cols = static_cast<std::size_t>(half_.width);
+  for (auto* row : {&vx_, &vy_, &moved_}) row->resize(cols);
+  for (auto& column : columns_) column.resize(cols);
+  for (cv::Mat1f& sum : sums_) sum.create(cells_.size());
+}
+
+void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& field) {
+  for (int round = 0; round < options_.rounds; ++round) {
+    for (cv::Mat1f& sum : sums_) sum.setTo(0.0F);
+    for (const MovedPair& pair : pairs) add(pair, field);
+    for (cv::Mat1f& sum : sums_) {
+      smooth(sum);
+      smooth(sum);
+    }
+    step(field);
+  }
+  take_median(field.x);
+  take_median(field.y);
+}
+
+void MotionEstimator::compensate(const MovedPair& pair, const MotionField& field) {
+  for (int y = 0; y < half_.height; ++y) {
+    cells_.interpolate_row(field.x, y, pair.windows / kHalf, vx_.data());
+    cells_.interpolate_row(field.y, y, pair.windows / kHalf, vy_.data());
+    lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
+    lookup_.sample(pair.before, moved_.data());
+    mean_and_difference(half_.width, moved_.data(), pair.after[y], mean_[y], difference_[y]);
+  }
+}
+
+void MotionEstimator::add(const MovedPair& pair, const MotionField& field) {
+  compensate(pair, field);
+  // A step of 1 px a window moves the pair by so many pixels; half of it is the central difference's.
+  const float reach = 0.5F * pair.windows / kHalf;
+  auto& [xx, xy, yy, rx, ry] = columns_;
+  for (auto& column : columns_) std::fill(column.begin(), column.end(), 0.0F);
+  for (int y = 0; y < half_.height; ++y) {
+    const bool is_inside = y > 0 && y < half_.height - 1;
+    if (is_inside) {
+      add_terms(half_.width, mean_[y - 1], mean_[y], mean_[y + 1], difference_[y],
+                pair.weight * reach * reach, -pair.weight * reach, xx.data(), xy.data(), yy.data(), rx.data(),
+                ry.data());
+    }
+    const int cell_row = cells_.cell_of(y);
+    if (y + 1 < half_.height && cells_.cell_of(y + 1) == cell_row) continue;
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      float* const sums = sums_[i][cell_row];
+      for (int x = 0; x < half_.width; ++x) sums[cells_.cell_of(x)] += columns_[i][static_cast<std::size_t>(x)];
+      std::fill(columns_[i].begin(), columns_[i].end(), 0.0F);
+    }
+  }
+}
+
+void MotionEstimator::step(MotionField& field) {
+  const cv::Mat1f mean_x = neighbours_of(field.x);
+  const cv::Mat1f mean_y = neighbours_of(field.y);
+  const auto reg = static_cast<float>(options_.regularisation);
+  const auto& [xx, xy, yy, rx, ry] = sums_;
+  for (int i = 0; i < static_cast<int>(field.x.total()); ++i) {
+    const float a = xx(i) + reg;
+    const float b = xy(i);
+    const float d = yy(i) + reg;
+    const float x = rx(i) + reg * (mean_x(i) - field.x(i));
+    const float y = ry(i) + reg * (mean_y(i) - field.y(i));
+    const float determinant = a * d - b * b;
+    field.x(i) += (d * x - b * y) / determinant;
+    field.y(i) += (a * y - b * x) / determinant;
+  }
+}
+
+}  // namespace esi

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <span>
+#include <vector>
+
+#include "esi/recon/flow/bilinear_row.hpp"
+#include "esi/recon/flow/cell_grid.hpp"
+
+namespace esi {
+
+/// The image's motion: one vector per cell, in px of the full resolution per window.
+struct MotionField {
+  cv::Mat1f x, y;
+};
+
+/// Two images of half the resolution, the first of which moved became the second.
+struct MovedPair {
+  const cv::Mat1f& before;
+  const cv::Mat1f& after;
+  float weight;
+  float windows;  ///< that passed from the first to the second
+};
+
+/// Optical flow by Lucas and Kanade (1981) from several pairs of images at once, on cells that are held
+/// together by their neighbours.
+class MotionEstimator {
+ public:
+  struct Options {
+    double cell_px;         ///< of the full resolution
+    double regularisation;  ///< reg: how much neighbours hold a cell
+    int rounds;
+  };
+
+  MotionEstimator(cv::Size full, const Options& options);
+
+  /// Cells over the half resolution.
+  const CellGrid& cells() const { return cells_; }
+
+  /// Improves `field`, from where it stands, by `rounds` of
+  ///   v += (T + reg I)^-1 (rhs + reg (mean of neighbours - v))                                   (2)
+  /// where, with m the motion-compensated mean of a pair's images and e their difference,
+  ///   T = sum weight grad m grad m^T,  rhs = -sum weight grad m e                                (3)
+  /// over a cell, smoothed by [1 2 1] twice; then by a median of 3x3 cells.
+  void improve(std::span<const MovedPair> pairs, MotionField& field);
+
+ private:
+  /// Sums over cells: xx, xy, yy of T, then x and y of rhs.
+  using Sums = std::array<cv::Mat1f, 5>;
+
+  void add(const MovedPair& pair, const MotionField& field);
+  void compensate(const MovedPair& pair, const MotionField& field);
+  void step(MotionField& field);
+
+  Options options_;
+  cv::Size half_;
+  CellGrid cells_;
+  BilinearRow lookup_;
+  cv::Mat1f mean_, difference_;
+  Sums sums_;
+  std::array<std::vector<float>, 5> columns_;  ///< the sums of one row of cells, by pixel column
+  std::vector<float> vx_, vy_, moved_;
+};
+
+}  // namespace esi

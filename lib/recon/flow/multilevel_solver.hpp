@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "esi/recon/flow/motion_operator.hpp"
+
+namespace esi {
+
+/// Solves M L = rhs from a good guess: what is wrong on a large scale is put right on coarse grids, where it is
+/// cheap.
+class MultilevelSolver {
+ public:
+  struct Options {
+    int cycles;
+    /// Steps of conjugate gradients at full resolution, at half, and so on.
+    std::vector<int> steps;
+  };
+
+  MultilevelSolver(cv::Size size, const Options& options);
+
+  /// Improves `solution`. A cycle restricts the residual to every level; from the coarsest on each level runs
+  /// its steps of conjugate gradients (Jacobi's preconditioner) on what the level below it left. A correction e
+  /// that goes up is scaled by r . e / e . M e, which makes the energy least along it              (8)
+  void solve(MotionOperator& fine, const cv::Mat1f& rhs, cv::Mat1f& solution);
+
+ private:
+  struct Level {
+    MotionOperator normal;
+    cv::Mat1f residual, correction, inverse_diagonal, direction, product;
+  };
+
+  void cycle(const cv::Mat1f& rhs, cv::Mat1f& solution);
+  /// Adds coarse's correction to this level's, and takes its effect out of the residual.
+  void take_correction(const Level& coarse, Level& level, MotionOperator& normal, cv::Mat1f& correction);
+  void conjugate_gradients(Level& level, MotionOperator& normal, int steps, cv::Mat1f& solution);
+
+  MotionOperator& operator_of(std::size_t level) { return level == 0 ? *fine_ : levels_[level].normal; }
+
+  Options options_;
+  std::vector<Level> levels_;  ///< from the full resolution on, whose operator is the caller's
+  MotionOperator* fine_ = nullptr;
+};
+
+}  // namespace esi
