@@ -12,6 +12,7 @@ namespace esi::cli {
 struct ReconArguments {
   std::vector<std::filesystem::path> recordings;  ///< folders are expanded
   std::string output;
+  std::string flow_output;  ///< empty: none
   ReconConfig config;
   int threads = 1;
   int jobs = 1;

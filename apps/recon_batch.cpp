@@ -84,8 +84,13 @@ std::vector<ReconJob> make_jobs(const ReconArguments& arguments) {
   std::vector<ReconJob> jobs;
   for (const fs::path& path : arguments.recordings) {
     fs::path output = arguments.output;
-    if (arguments.recordings.size() > 1) output /= name_among(path, arguments.recordings);
-    jobs.push_back({path, output, arguments.threads, kTool});
+    fs::path flow_output = arguments.flow_output;
+    if (arguments.recordings.size() > 1) {
+      const std::string name = name_among(path, arguments.recordings);
+      output /= name;
+      if (!flow_output.empty()) flow_output /= name;
+    }
+    jobs.push_back({path, output, arguments.threads, kTool, flow_output});
   }
   return jobs;
 }

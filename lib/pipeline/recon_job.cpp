@@ -7,6 +7,7 @@
 
 #include "esi/core/error.hpp"
 #include "esi/io/output/run_manifest.hpp"
+#include "esi/pipeline/motion_sink.hpp"
 #include "esi/pipeline/ready_method.hpp"
 
 namespace esi {
@@ -57,6 +58,23 @@ void refuse_nothing(const Reconstruction& result, const EventSource& source, con
   throw Error(fmt::format("{}: there are no events{} in the part that was asked for", name, lost));
 }
 
+std::unique_ptr<FrameSink> open_sink(const ReconJob& job, const ReconConfig& config, Reconstructor& method,
+                                     const SinkContext& context) {
+  if (job.motion_output.empty()) return open_frame_sink(job.output, config.sink, context);
+  if (method.motion() == nullptr) {
+    throw usage_error(fmt::format("--flow-out: method '{}' doesn't estimate motion; esi-flow does",
+                                  config.method().name));
+  }
+  if (fs::absolute(job.motion_output).lexically_normal() == fs::absolute(job.output).lexically_normal()) {
+    throw usage_error("--flow-out needs a folder of its own, not that of the frames");
+  }
+  if (config.sink.resume) throw usage_error("--flow-out can't be resumed; leave --resume or --flow-out away");
+  require_usable_folder(job.motion_output, config.sink, kMotionContent);
+  auto frames = open_frame_sink(job.output, config.sink, context);
+  return std::make_unique<MotionSink>(std::move(frames), method, job.motion_output, config.sink,
+                                      context.fingerprint);
+}
+
 }  // namespace
 
 ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observer& observer) {
@@ -75,8 +93,8 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
                               sensor.value_or(report.size), config.frames.region()});
   const nlohmann::json effective = config.json();
   const std::string fingerprint = fingerprint_of(job, effective, method.files_json());
-  const auto sink = open_frame_sink(job.output, config.sink,
-                                    {report.size, config.frames.video_fps(), job.threads, fingerprint});
+  const auto sink = open_sink(job, config, method.reconstructor(),
+                              {report.size, config.frames.video_fps(), job.threads, fingerprint});
 
   report.result =
       reconstruct(source, *schedule, method.reconstructor(), *sink, config.frames.max_frames, name, observer);

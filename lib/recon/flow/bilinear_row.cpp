@@ -7,8 +7,9 @@
 namespace esi {
 namespace {
 
-ESI_SIMD void place_row(int cols, int rows, int y, const float* vx, const float* vy, float scale, float offset,
-                        int* index, float* right, float* below) {
+ESI_SIMD void place_row(int cols, int rows, int y, const float* __restrict vx, const float* __restrict vy,
+                        float scale, float offset, int* __restrict index, float* __restrict right,
+                        float* __restrict below) {
   const auto last_x = static_cast<float>(cols - 1);
   const auto last_y = static_cast<float>(rows - 1);
   const int last_left = std::max(cols - 2, 0);
@@ -24,9 +25,10 @@ ESI_SIMD void place_row(int cols, int rows, int y, const float* vx, const float*
   }
 }
 
-ESI_SIMD void sample_row(int cols, const float* image, const float* image_right, const float* image_below,
-                         const float* image_both, const int* index, const float* right, const float* below,
-                         float* out) {
+ESI_SIMD void sample_row(int cols, const float* __restrict image, const float* __restrict image_right,
+                         const float* __restrict image_below, const float* __restrict image_both,
+                         const int* __restrict index, const float* __restrict right,
+                         const float* __restrict below, float* __restrict out) {
   for (int x = 0; x < cols; ++x) {
     const int i = index[x];
     const float upper = image[i] + right[x] * (image_right[i] - image[i]);

@@ -20,7 +20,7 @@ class BilinearRow {
 
  private:
   cv::Size size_;
-  std::vector<int> index_;  ///< of the upper left of the four pixels around
+  std::vector<int> index_;            ///< of the upper left of the four pixels around
   std::vector<float> right_, below_;  ///< shares of the neighbours
 };
 

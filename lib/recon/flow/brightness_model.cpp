@@ -7,9 +7,10 @@
 namespace esi {
 namespace {
 
-
-ESI_SIMD void accumulate(int corners, const float* vx, const float* vy, const float* b, float memory,
-                         float per_px, float weight, float* dd, float* de, float* ee, float* a_d, float* a_e) {
+ESI_SIMD void accumulate(int corners, const float* __restrict vx, const float* __restrict vy,
+                         const float* __restrict b, float memory, float per_px, float weight,
+                         float* __restrict dd, float* __restrict de, float* __restrict ee,
+                         float* __restrict a_d, float* __restrict a_e) {
   for (int x = 0; x < corners; ++x) {
     const float along_d = 0.5F * (vx[x] + vy[x]);
     const float along_e = 0.5F * (vx[x] - vy[x]);
@@ -24,11 +25,19 @@ ESI_SIMD void accumulate(int corners, const float* vx, const float* vy, const fl
 }
 
 /// Adds what the corners below these pixels, or those above the next row's, give to minus the divergence.
-ESI_SIMD void spread(int corners, const float* a_d, const float* a_e, float* upper, float* lower) {
+ESI_SIMD void spread(int corners, const float* __restrict a_d, const float* __restrict a_e,
+                     float* __restrict upper, float* __restrict lower) {
   for (int x = 0; x < corners; ++x) upper[x] -= a_d[x];
   for (int x = 0; x < corners; ++x) upper[x + 1] += a_e[x];
   for (int x = 0; x < corners; ++x) lower[x] -= a_e[x];
   for (int x = 0; x < corners; ++x) lower[x + 1] += a_d[x];
+}
+
+/// There is a corner less than pixels; where corners are looked up beyond the last ones, those go on.
+void repeat_last_corners(cv::Mat1f& corners) {
+  if (corners.rows < 2 || corners.cols < 2) return;
+  corners.col(corners.cols - 2).copyTo(corners.col(corners.cols - 1));
+  corners.row(corners.rows - 2).copyTo(corners.row(corners.rows - 1));
 }
 
 }  // namespace
@@ -56,6 +65,8 @@ void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, CellGri
     cells.interpolate_row(field.y, y, 1.0F, vy_.data());
     move_row(y, b);
   }
+  repeat_last_corners(moved_d_);
+  repeat_last_corners(moved_e_);
   cv::swap(a_d_, moved_d_);
   cv::swap(a_e_, moved_e_);
   cv::swap(log_intensity_, moved_l_);
@@ -72,6 +83,16 @@ void BrightnessModel::move_row(int y, const cv::Mat1f& b) {
   accumulate(log_intensity_.cols - 1, vx_.data(), vy_.data(), b_.data(), options_.memory,
              1.0F / options_.memory_px, options_.weight, operator_.dd[y], operator_.de[y], operator_.ee[y],
              moved_d_[y], moved_e_[y]);
+}
+
+void BrightnessModel::move_image(const MotionField& field, CellGrid& cells, float share, cv::Mat1f& moved) {
+  moved.create(log_intensity_.size());
+  for (int y = 0; y < moved.rows; ++y) {
+    cells.interpolate_row(field.x, y, share, vx_.data());
+    cells.interpolate_row(field.y, y, share, vy_.data());
+    lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
+    lookup_.sample(log_intensity_, moved[y]);
+  }
 }
 
 void BrightnessModel::right_hand_side(cv::Mat1f& rhs) const {

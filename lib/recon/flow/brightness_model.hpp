@@ -17,11 +17,11 @@ namespace esi {
 class BrightnessModel {
  public:
   struct Options {
-    float eps;         ///< smoothness, px^2
-    float mu;          ///< pull towards 0
-    float memory;      ///< what is left after a window, even without motion
-    float memory_px;   ///< ell: after this path half of it is forgotten
-    float weight;      ///< of a window
+    float eps;        ///< smoothness, px^2
+    float mu;         ///< pull towards 0
+    float memory;     ///< what is left after a window, even without motion
+    float memory_px;  ///< ell: after this path half of it is forgotten
+    float weight;     ///< of a window
   };
 
   BrightnessModel(cv::Size size, const Options& options);
@@ -33,6 +33,9 @@ class BrightnessModel {
 
   /// The problem's right-hand side: minus the divergence of a.
   void right_hand_side(cv::Mat1f& rhs) const;
+
+  /// The image as it will be after `share` of a window's motion.
+  void move_image(const MotionField& field, CellGrid& cells, float share, cv::Mat1f& moved);
 
   MotionOperator& normal_operator() { return operator_; }
 

@@ -10,7 +10,8 @@ namespace {
 
 int cells_over(int pixels, double cell_px) { return static_cast<int>(std::ceil(pixels / cell_px)); }
 
-ESI_SIMD void interpolate(std::size_t cols, const float* line, const int* left, const float* share, float* out) {
+ESI_SIMD void interpolate(std::size_t cols, const float* __restrict line, const int* __restrict left,
+                          const float* __restrict share, float* __restrict out) {
   for (std::size_t x = 0; x < cols; ++x) {
     const float* const at = line + left[x];
     out[x] = at[0] + share[x] * (at[1] - at[0]);

@@ -5,9 +5,9 @@
 
 namespace esi {
 
-/// Square cells over an image, from its upper left corner on, the last ones cut off by its border. A value per
-/// cell stands at the cell's centre; between centres values are interpolated bilinearly, and outside them the
-/// nearest go on.
+/// Square cells over an image, from its upper left corner on, the last ones cut off by its border. A value
+/// per cell stands at the cell's centre; between centres values are interpolated bilinearly, and outside them
+/// the nearest go on.
 class CellGrid {
  public:
   CellGrid(cv::Size image, double cell_px);
@@ -24,9 +24,9 @@ class CellGrid {
  private:
   double cell_px_;
   int cols_, rows_;
-  std::vector<int> left_;      ///< of each pixel column: the cell column left of it, in line_
-  std::vector<float> share_;   ///< of the cell column right of it
-  std::vector<float> line_;    ///< one row of cells, the first and the last of them twice
+  std::vector<int> left_;     ///< of each pixel column: the cell column left of it, in line_
+  std::vector<float> share_;  ///< of the cell column right of it
+  std::vector<float> line_;   ///< one row of cells, the first and the last of them twice
 };
 
 }  // namespace esi

@@ -18,21 +18,6 @@ constexpr double kLeastDeviation = 1e-6;
 
 cv::Size cv_size(SensorSize size) { return {size.width_px, size.height_px}; }
 
-BrightnessModel::Options model_options(const EsiFlowOptions& options) {
-  const double share = static_cast<double>(options.window_us) / kReferenceWindow_us;
-  return {.eps = static_cast<float>(options.eps),
-          .mu = static_cast<float>(options.mu),
-          .memory = static_cast<float>(std::pow(options.memory, share)),
-          .memory_px = static_cast<float>(options.memory_px),
-          .weight = static_cast<float>(1.0 / share)};
-}
-
-MultilevelSolver::Options solver_options(const EsiFlowOptions& options) {
-  return {static_cast<int>(options.cycles),
-          {static_cast<int>(options.steps_full), static_cast<int>(options.steps_half),
-           static_cast<int>(options.steps_quarter)}};
-}
-
 }  // namespace
 
 void EsiFlowOptions::declare(OptionTable& table) {
@@ -54,7 +39,22 @@ void EsiFlowOptions::declare(OptionTable& table) {
   table.integer("steps_full", steps_full, {0, 1000}, "", "steps of the solver at full resolution");
   table.integer("steps_half", steps_half, {0, 1000}, "", "at half");
   table.integer("steps_quarter", steps_quarter, {0, 1000}, "", "at a quarter");
-  table.real("contrast_deviations", contrast_deviations, {0.1, 100.0}, "", "so many deviations of the image are shown white");
+  table.real("contrast_deviations", contrast_deviations, {0.1, 100.0}, "",
+             "so many deviations of the image are shown white");
+}
+
+BrightnessModel::Options EsiFlowOptions::model() const {
+  const double share = static_cast<double>(window_us) / kReferenceWindow_us;
+  return {.eps = static_cast<float>(eps),
+          .mu = static_cast<float>(mu),
+          .memory = static_cast<float>(std::pow(memory, share)),
+          .memory_px = static_cast<float>(memory_px),
+          .weight = static_cast<float>(1.0 / share)};
+}
+
+MultilevelSolver::Options EsiFlowOptions::solver() const {
+  return {static_cast<int>(cycles),
+          {static_cast<int>(steps_full), static_cast<int>(steps_half), static_cast<int>(steps_quarter)}};
 }
 
 EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
@@ -65,8 +65,8 @@ EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
       motion_(cv_size(size), {static_cast<double>(options.cell_px), options.flow_regularisation,
                               static_cast<int>(options.flow_rounds)}),
       cells_(cv_size(size), static_cast<double>(options.cell_px)),
-      model_(cv_size(size), model_options(options)),
-      solver_(cv_size(size), solver_options(options)),
+      model_(cv_size(size), options.model()),
+      solver_(cv_size(size), options.solver()),
       field_{cv::Mat1f(motion_.cells().size(), 0.0F), cv::Mat1f(motion_.cells().size(), 0.0F)} {}
 
 void EsiFlow::take(std::span<const Event> events, std::span<const float> weights) {
@@ -75,7 +75,8 @@ void EsiFlow::take(std::span<const Event> events, std::span<const float> weights
 }
 
 EventWindows::Take EsiFlow::step() {
-  return [this](std::span<const Event> window, std::span<const float> weights) { take_window(window, weights); };
+  return
+      [this](std::span<const Event> window, std::span<const float> weights) { take_window(window, weights); };
 }
 
 std::int64_t EsiFlow::index_of(std::int64_t t_us) const {
@@ -116,7 +117,8 @@ void EsiFlow::estimate_first_motion() {
     after += *(last - static_cast<std::ptrdiff_t>(i));
     before += *(last - static_cast<std::ptrdiff_t>(half + i));
   }
-  const MovedPair pair{before, after, static_cast<float>(options_.event_pair_weight), static_cast<float>(half)};
+  const MovedPair pair{before, after, static_cast<float>(options_.event_pair_weight),
+                       static_cast<float>(half)};
   motion_.improve({&pair, 1}, field_);
 }
 
@@ -130,9 +132,32 @@ void EsiFlow::estimate_motion() {
   motion_.improve(pairs, field_);
 }
 
+const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {
+  const std::int64_t open = index_of(t_us);
+  const std::int64_t passed_us = t_us - open * options_.window_us;
+  const bool goes_on = last_event_us_ && index_of(*last_event_us_) == open && last_window_ == open - 1;
+  if (!goes_on || passed_us == 0) return model_.log_intensity();
+  const auto share = static_cast<float>(static_cast<double>(passed_us) / static_cast<double>(options_.window_us));
+  model_.move_image(field_, cells_, share, moved_on_);
+  return moved_on_;
+}
+
+const cv::Mat2f* EsiFlow::motion() {
+  const auto per_s = static_cast<float>(1e6 / static_cast<double>(options_.window_us));
+  motion_px_s_.create(model_.log_intensity().size());
+  std::vector<float> x(static_cast<std::size_t>(motion_px_s_.cols));
+  std::vector<float> y(x.size());
+  for (int row = 0; row < motion_px_s_.rows; ++row) {
+    cells_.interpolate_row(field_.x, row, per_s, x.data());
+    cells_.interpolate_row(field_.y, row, per_s, y.data());
+    for (std::size_t i = 0; i < x.size(); ++i) motion_px_s_(row, static_cast<int>(i)) = {x[i], y[i]};
+  }
+  return &motion_px_s_;
+}
+
 void EsiFlow::render_levels(std::int64_t t_us, cv::Mat1f& levels) {
   windows_.end_by(t_us, step());
-  const cv::Mat1f& image = model_.log_intensity();
+  const cv::Mat1f& image = image_at(t_us);
   cv::Scalar mean, deviation;
   cv::meanStdDev(image, mean, deviation);
   levels.create(image.size());

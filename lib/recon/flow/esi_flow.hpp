@@ -38,6 +38,9 @@ struct EsiFlowOptions {
   double contrast_deviations = 1.5;
 
   void declare(OptionTable& table);
+
+  BrightnessModel::Options model() const;
+  MultilevelSolver::Options solver() const;
 };
 
 class EsiFlow final : public Reconstructor {
@@ -45,6 +48,7 @@ class EsiFlow final : public Reconstructor {
   EsiFlow(const EsiFlowOptions& options, SensorSize size);
 
   void render_levels(std::int64_t t_us, cv::Mat1f& levels) override;
+  const cv::Mat2f* motion() override;
 
  private:
   void take(std::span<const Event> events, std::span<const float> weights) override;
@@ -53,6 +57,8 @@ class EsiFlow final : public Reconstructor {
   void estimate_motion();
   void estimate_first_motion();
   std::int64_t index_of(std::int64_t t_us) const;
+  /// The image at t_us: that of the last window, moved on where events show that the motion goes on.
+  const cv::Mat1f& image_at(std::int64_t t_us);
 
   EsiFlowOptions options_;
   EventWindows windows_;
@@ -67,6 +73,8 @@ class EsiFlow final : public Reconstructor {
   std::vector<cv::Mat1f> first_events_;  ///< smooth event images, until the flow has started
   cv::Mat1f events_, events_before_, intensity_before_, intensity_after_;  ///< smooth, half resolution
   cv::Mat1f rhs_;
+  cv::Mat1f moved_on_;
+  cv::Mat2f motion_px_s_;
   std::optional<std::int64_t> last_event_us_;
   std::optional<std::int64_t> last_window_;
 };

@@ -7,7 +7,8 @@
 namespace esi {
 namespace {
 
-ESI_SIMD void sum_rows(int pairs, const float* upper, const float* lower, float factor, float* out) {
+ESI_SIMD void sum_rows(int pairs, const float* __restrict upper, const float* __restrict lower, float factor,
+                       float* __restrict out) {
   for (int x = 0; x < pairs; ++x) {
     out[x] = factor * ((upper[2 * x] + upper[2 * x + 1]) + (lower[2 * x] + lower[2 * x + 1]));
   }
@@ -21,7 +22,8 @@ void sum_by_twos(const cv::Mat1f& image, float factor, cv::Mat1f& half) {
     const float* const upper = image[2 * y];
     const float* const lower = image[std::min(2 * y + 1, image.rows - 1)];
     sum_rows(image.cols / 2, upper, lower, factor, half[y]);
-    if (image.cols % 2 == 1) half(y, half.cols - 1) = 2.0F * factor * (upper[image.cols - 1] + lower[image.cols - 1]);
+    if (image.cols % 2 == 1)
+      half(y, half.cols - 1) = 2.0F * factor * (upper[image.cols - 1] + lower[image.cols - 1]);
   }
 }
 

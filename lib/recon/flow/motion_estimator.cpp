@@ -11,8 +11,8 @@ namespace {
 /// Pixels of the full resolution in one of the half.
 constexpr float kHalf = 2.0F;
 
-ESI_SIMD void mean_and_difference(int cols, const float* moved, const float* after, float* mean,
-                                  float* difference) {
+ESI_SIMD void mean_and_difference(int cols, const float* __restrict moved, const float* __restrict after,
+                                  float* __restrict mean, float* __restrict difference) {
   for (int x = 0; x < cols; ++x) {
     mean[x] = 0.5F * (moved[x] + after[x]);
     difference[x] = after[x] - moved[x];
@@ -20,9 +20,10 @@ ESI_SIMD void mean_and_difference(int cols, const float* moved, const float* aft
 }
 
 /// Adds a row's terms of T and rhs, for columns that have both neighbours.
-ESI_SIMD void add_terms(int cols, const float* above, const float* here, const float* below,
-                        const float* difference, float tensor_factor, float rhs_factor, float* xx, float* xy,
-                        float* yy, float* rx, float* ry) {
+ESI_SIMD void add_terms(int cols, const float* __restrict above, const float* __restrict here,
+                        const float* __restrict below, const float* __restrict difference,
+                        float tensor_factor, float rhs_factor, float* __restrict xx, float* __restrict xy,
+                        float* __restrict yy, float* __restrict rx, float* __restrict ry) {
   for (int x = 1; x < cols - 1; ++x) {
     const float gx = here[x + 1] - here[x - 1];
     const float gy = below[x] - above[x];
@@ -110,7 +111,8 @@ void MotionEstimator::add(const MovedPair& pair, const MotionField& field) {
     if (y + 1 < half_.height && cells_.cell_of(y + 1) == cell_row) continue;
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       float* const sums = sums_[i][cell_row];
-      for (int x = 0; x < half_.width; ++x) sums[cells_.cell_of(x)] += columns_[i][static_cast<std::size_t>(x)];
+      for (int x = 0; x < half_.width; ++x)
+        sums[cells_.cell_of(x)] += columns_[i][static_cast<std::size_t>(x)];
       std::fill(columns_[i].begin(), columns_[i].end(), 0.0F);
     }
   }

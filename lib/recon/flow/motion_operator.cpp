@@ -9,8 +9,9 @@
 namespace esi {
 namespace {
 
-ESI_SIMD void flux_row(int corners, const float* upper, const float* lower, const float* dd, const float* de,
-                       const float* ee, float* d, float* e) {
+ESI_SIMD void flux_row(int corners, const float* __restrict upper, const float* __restrict lower,
+                       const float* __restrict dd, const float* __restrict de, const float* __restrict ee,
+                       float* __restrict d, float* __restrict e) {
   for (int x = 0; x < corners; ++x) {
     const float along_d = lower[x + 1] - upper[x];
     const float along_e = upper[x + 1] - lower[x];
@@ -20,9 +21,10 @@ ESI_SIMD void flux_row(int corners, const float* upper, const float* lower, cons
 }
 
 /// For pixels that have a left and a right neighbour. Outside the image a neighbour is the pixel itself.
-ESI_SIMD void divergence_row(int begin, int end, const float* above, const float* here, const float* below,
-                             const float* above_d, const float* above_e, const float* below_d,
-                             const float* below_e, float eps, float mu, float* out) {
+ESI_SIMD void divergence_row(int begin, int end, const float* __restrict above, const float* __restrict here,
+                             const float* __restrict below, const float* __restrict above_d,
+                             const float* __restrict above_e, const float* __restrict below_d,
+                             const float* __restrict below_e, float eps, float mu, float* __restrict out) {
   for (int x = begin; x < end; ++x) {
     const float divergence = (below_d[x + 1] - above_d[x]) + (above_e[x + 1] - below_e[x]);
     const float laplacian = (here[x - 1] + here[x + 1]) + (above[x] + below[x]) - 4.0F * here[x];
@@ -30,7 +32,8 @@ ESI_SIMD void divergence_row(int begin, int end, const float* above, const float
   }
 }
 
-ESI_SIMD void diagonal_row(int corners, const float* dd, const float* ee, float* upper, float* lower) {
+ESI_SIMD void diagonal_row(int corners, const float* __restrict dd, const float* __restrict ee,
+                           float* __restrict upper, float* __restrict lower) {
   for (int x = 0; x < corners; ++x) upper[x] += dd[x];
   for (int x = 0; x < corners; ++x) upper[x + 1] += ee[x];
   for (int x = 0; x < corners; ++x) lower[x] += ee[x];
@@ -38,7 +41,8 @@ ESI_SIMD void diagonal_row(int corners, const float* dd, const float* ee, float*
 }
 
 /// Corner X of the half resolution lies on corner 2 X + 1; the mean is of 3x3 around it, [1 2 1]/4 each way.
-ESI_SIMD void halve_corners_row(int corners, const float* a, const float* b, const float* c, float* out) {
+ESI_SIMD void halve_corners_row(int corners, const float* __restrict a, const float* __restrict b,
+                                const float* __restrict c, float* __restrict out) {
   for (int x = 0; x < corners; ++x) {
     const int i = 2 * x;
     const float left = a[i] + 2.0F * b[i] + c[i];

@@ -11,34 +11,38 @@ namespace {
 
 int count_of(const cv::Mat1f& image) { return static_cast<int>(image.total()); }
 
-ESI_SIMD void subtract(int count, const float* a, const float* b, float* out) {
+ESI_SIMD void subtract(int count, const float* __restrict a, const float* __restrict b,
+                       float* __restrict out) {
   for (int i = 0; i < count; ++i) out[i] = a[i] - b[i];
 }
 
-ESI_SIMD void multiply(int count, const float* a, const float* b, float* out) {
+ESI_SIMD void multiply(int count, const float* __restrict a, const float* __restrict b,
+                       float* __restrict out) {
   for (int i = 0; i < count; ++i) out[i] = a[i] * b[i];
 }
 
 /// y += factor x
-ESI_SIMD void add_scaled(int count, float factor, const float* x, float* y) {
+ESI_SIMD void add_scaled(int count, float factor, const float* __restrict x, float* __restrict y) {
   for (int i = 0; i < count; ++i) y[i] += factor * x[i];
 }
 
 /// direction = factor direction + inverse_diagonal residual
-ESI_SIMD void turn(int count, float factor, const float* inverse_diagonal, const float* residual,
-                   float* direction) {
+ESI_SIMD void turn(int count, float factor, const float* __restrict inverse_diagonal,
+                   const float* __restrict residual, float* __restrict direction) {
   for (int i = 0; i < count; ++i) direction[i] = factor * direction[i] + inverse_diagonal[i] * residual[i];
 }
 
-/// A row twice as long, bilinearly: pixel 2 x lies a quarter left of coarse pixel x, pixel 2 x + 1 right of it.
-ESI_SIMD void double_row(int coarse_cols, const float* line, float* out) {
+/// A row twice as long, bilinearly: pixel 2 x lies a quarter left of coarse pixel x, pixel 2 x + 1 right of
+/// it.
+ESI_SIMD void double_row(int coarse_cols, const float* __restrict line, float* __restrict out) {
   for (int x = 0; x < coarse_cols; ++x) {
     out[2 * x] = 0.75F * line[x + 1] + 0.25F * line[x];
     out[2 * x + 1] = 0.75F * line[x + 1] + 0.25F * line[x + 2];
   }
 }
 
-ESI_SIMD void mix(int cols, const float* near, const float* far, float* out) {
+ESI_SIMD void mix(int cols, const float* __restrict near, const float* __restrict far,
+                  float* __restrict out) {
   for (int x = 0; x < cols; ++x) out[x] = 0.75F * near[x] + 0.25F * far[x];
 }
 
@@ -73,7 +77,8 @@ MultilevelSolver::MultilevelSolver(cv::Size size, const Options& options) : opti
 void MultilevelSolver::solve(MotionOperator& fine, const cv::Mat1f& rhs, cv::Mat1f& solution) {
   fine_ = &fine;
   for (std::size_t i = 1; i < levels_.size(); ++i) operator_of(i - 1).coarsen(levels_[i].normal);
-  for (std::size_t i = 0; i < levels_.size(); ++i) operator_of(i).invert_diagonal(levels_[i].inverse_diagonal);
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    operator_of(i).invert_diagonal(levels_[i].inverse_diagonal);
   for (int i = 0; i < options_.cycles; ++i) cycle(rhs, solution);
 }
 

@@ -8,8 +8,8 @@
 
 namespace esi {
 
-/// Solves M L = rhs from a good guess: what is wrong on a large scale is put right on coarse grids, where it is
-/// cheap.
+/// Solves M L = rhs from a good guess: what is wrong on a large scale is put right on coarse grids, where it
+/// is cheap.
 class MultilevelSolver {
  public:
   struct Options {
@@ -21,8 +21,8 @@ class MultilevelSolver {
   MultilevelSolver(cv::Size size, const Options& options);
 
   /// Improves `solution`. A cycle restricts the residual to every level; from the coarsest on each level runs
-  /// its steps of conjugate gradients (Jacobi's preconditioner) on what the level below it left. A correction e
-  /// that goes up is scaled by r . e / e . M e, which makes the energy least along it              (8)
+  /// its steps of conjugate gradients (Jacobi's preconditioner) on what the level below it left. A correction
+  /// e that goes up is scaled by r . e / e . M e, which makes the energy least along it              (8)
   void solve(MotionOperator& fine, const cv::Mat1f& rhs, cv::Mat1f& solution);
 
  private:

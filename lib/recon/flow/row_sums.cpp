@@ -10,7 +10,7 @@ constexpr int kLanes = 32;
 
 }  // namespace
 
-ESI_SIMD double dot(const float* a, const float* b, int count) {
+ESI_SIMD double dot(const float* __restrict a, const float* __restrict b, int count) {
   float lanes[kLanes] = {};
   int i = 0;
   for (; i + kLanes <= count; i += kLanes) {

@@ -35,6 +35,8 @@ class SteppedReconstructor final : public Reconstructor {
     if (undistortion_) undistortion_->apply(levels);
   }
 
+  const cv::Mat2f* motion() override { return method_->motion(); }
+
   void render(std::int64_t t_us, cv::Mat1b& grey) override {
     if (has_tone_) return Reconstructor::render(t_us, grey);
     method_->render(t_us, grey);

@@ -1,0 +1,129 @@
+#include "esi/recon/flow/motion_estimator.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "esi/recon/flow/half_size.hpp"
+#include "recon/flow/textures.hpp"
+
+using namespace esi;
+using namespace esi::test;
+
+namespace {
+
+const cv::Size kFull{160, 128};
+constexpr double kCell_px = 16.0;
+
+/// px a window, at a place of the full resolution.
+using Motion = std::function<cv::Point2d(cv::Point2d)>;
+
+cv::Point2d in_full(int x, int y) { return {2.0 * x + 0.5, 2.0 * y + 0.5}; }
+
+/// The estimate from two images of half resolution, the second of which shows at x what the first shows at
+/// x - windows v(x).
+MotionField estimate(const Motion& motion, float windows, int calls) {
+  const Waves waves(3, 12.0, 60.0);
+  const cv::Size half = half_of(kFull);
+  const cv::Mat1f before = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y)); });
+  const cv::Mat1f after = image_of(half, [&](int x, int y) {
+    const cv::Point2d place = in_full(x, y);
+    return waves.at(place - static_cast<double>(windows) * motion(place));
+  });
+  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+  MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
+  for (int i = 0; i < calls; ++i) {
+    const MovedPair pair{before, after, 1.0F, windows};
+    estimator.improve({&pair, 1}, field);
+  }
+  return field;
+}
+
+/// Largest error over the cells away from the border, as far as the smoothing of cells carries what comes in
+/// there; in px a window.
+double worst_error(const MotionField& field, const Motion& motion) {
+  double worst = 0.0;
+  for (int y = 2; y + 2 < field.x.rows; ++y) {
+    for (int x = 2; x + 2 < field.x.cols; ++x) {
+      const cv::Point2d centre((x + 0.5) * kCell_px - 0.5, (y + 0.5) * kCell_px - 0.5);
+      const cv::Point2d shown(field.x(y, x), field.y(y, x));
+      worst = std::max(worst, cv::norm(shown - motion(centre)));
+    }
+  }
+  return worst;
+}
+
+const cv::Point2d kMiddle(79.5, 63.5);
+
+}  // namespace
+
+TEST_CASE("flow on translated textures is within 0.1 px") {
+  for (const cv::Point2d v : {cv::Point2d(0, 0), cv::Point2d(0.3, -0.2), cv::Point2d(1.5, 1.0),
+                              cv::Point2d(-2.5, 0.5), cv::Point2d(0.0, 3.0)}) {
+    INFO(v.x << " " << v.y);
+    const Motion motion = [v](cv::Point2d) { return v; };
+    CHECK(worst_error(estimate(motion, 1.0F, 4), motion) < 0.1);
+  }
+}
+
+TEST_CASE("flow on rotated textures is within 0.1 px") {
+  for (const double turn : {0.02, -0.03}) {
+    const Motion motion = [turn](cv::Point2d at) {
+      return cv::Point2d(-turn * (at.y - kMiddle.y), turn * (at.x - kMiddle.x));
+    };
+    CHECK(worst_error(estimate(motion, 1.0F, 12), motion) < 0.1);
+  }
+}
+
+TEST_CASE("flow on zoomed textures is within 0.1 px") {
+  for (const double zoom : {0.03, -0.02}) {
+    const Motion motion = [zoom](cv::Point2d at) { return zoom * (at - kMiddle); };
+    CHECK(worst_error(estimate(motion, 1.0F, 12), motion) < 0.1);
+  }
+}
+
+TEST_CASE("a pair that is several windows apart gives the motion of one") {
+  const cv::Point2d v(0.6, -0.4);
+  const Motion motion = [v](cv::Point2d) { return v; };
+  CHECK(worst_error(estimate(motion, 4.0F, 4), motion) < 0.1);
+}
+
+TEST_CASE("pairs count by their weights, and without texture the motion is the neighbours'") {
+  const Waves waves(3, 12.0, 60.0);
+  const cv::Size half = half_of(kFull);
+  const cv::Point2d one(0.8, 0.0);
+  const cv::Point2d other(0.0, 0.8);
+  const auto image = [&](cv::Point2d moved) {
+    return image_of(half, [&](int x, int y) {
+      // Flat on the right half of the image.
+      const cv::Point2d place = in_full(x, y) - moved;
+      return waves.at(place) / (1.0 + std::exp(0.3 * (place.x - 70.0)));
+    });
+  };
+  const cv::Mat1f before = image({0, 0});
+  const cv::Mat1f after_one = image(one);
+  const cv::Mat1f after_other = image(other);
+  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+  const auto mean_of = [&](float weight_one, float weight_other) {
+    MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
+    const std::array pairs{MovedPair{before, after_one, weight_one, 1.0F},
+                           MovedPair{before, after_other, weight_other, 1.0F}};
+    for (int i = 0; i < 200; ++i) estimator.improve(pairs, field);
+    CHECK(field.x(4, 8) == Approx(field.x(4, 6)).margin(0.1));  // carried over into the flat part
+    CHECK(field.y(4, 8) == Approx(field.y(4, 6)).margin(0.1));
+    return cv::Point2d(field.x(4, 2), field.y(4, 2));
+  };
+  CHECK(cv::norm(mean_of(1.0F, 0.0F) - one) < 0.1);
+  CHECK(cv::norm(mean_of(0.0F, 1.0F) - other) < 0.1);
+  CHECK(cv::norm(mean_of(100.0F, 1.0F) - one) < 0.15);
+}
+
+TEST_CASE("images of any size have a motion, and flat ones have none") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 40), cv::Size(33, 2), cv::Size(17, 35)}) {
+    MotionEstimator estimator(size, {.cell_px = kCell_px, .regularisation = 0.1, .rounds = 2});
+    const cv::Mat1f flat(half_of(size), 1.0F);
+    MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
+    const MovedPair pair{flat, flat, 1.0F, 1.0F};
+    estimator.improve({&pair, 1}, field);
+    CHECK(cv::norm(field.x) + cv::norm(field.y) == 0.0);
+  }
+}

@@ -1,0 +1,79 @@
+#include <catch2/catch.hpp>
+
+#include "esi/recon/flow/bilinear_row.hpp"
+#include "esi/recon/flow/cell_grid.hpp"
+#include "esi/recon/flow/half_size.hpp"
+#include "esi/recon/flow/row_sums.hpp"
+#include "recon/flow/random_problems.hpp"
+#include "recon/flow/textures.hpp"
+
+using namespace esi;
+using namespace esi::test;
+
+TEST_CASE("a row is looked up bilinearly, and the border goes on outside") {
+  const cv::Size size(21, 9);
+  const auto plane = [](double x, double y) { return 1.0 + 3.0 * x - 2.0 * y; };
+  const cv::Mat1f image = image_of(size, plane);
+  BilinearRow row(size);
+  const cv::Mat1f vx = random_image({size.width, 1}, 1, 6.0);
+  const cv::Mat1f vy = random_image({size.width, 1}, 2, 6.0);
+  std::vector<float> out(21);
+  for (const float offset : {0.0F, 0.5F}) {
+    for (int y = 0; y < size.height; ++y) {
+      row.place(y, vx[0], vy[0], 0.7F, offset);
+      row.sample(image, out.data());
+      for (int x = 0; x < size.width; ++x) {
+        const double at_x = std::clamp(x + double{offset} - 0.7 * double{vx(x)}, 0.0, 20.0);
+        const double at_y = std::clamp(y + double{offset} - 0.7 * double{vy(x)}, 0.0, 8.0);
+        CHECK(out[static_cast<std::size_t>(x)] == Approx(plane(at_x, at_y)).margin(1e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("cells hold a plane's values between their centres, and the nearest outside them") {
+  const cv::Size size(100, 50);
+  for (const double cell_px : {16.0, 8.0, 7.0}) {
+    CellGrid grid(size, cell_px);
+    CHECK(grid.size() ==
+          cv::Size(static_cast<int>(std::ceil(100 / cell_px)), static_cast<int>(std::ceil(50 / cell_px))));
+    const cv::Mat1f cells =
+        image_of(grid.size(), [&](int x, int y) { return 2.0 * (x + 0.5) * cell_px - (y + 0.5) * cell_px; });
+    std::vector<float> out(100);
+    const auto within = [&](double at, int count) {
+      return std::clamp(at, 0.5 * cell_px, (count - 0.5) * cell_px);
+    };
+    for (int y = 0; y < size.height; ++y) {
+      grid.interpolate_row(cells, y, 0.5F, out.data());
+      for (int x = 0; x < size.width; ++x) {
+        const double expected =
+            within(x + 0.5, grid.size().width) - 0.5 * within(y + 0.5, grid.size().height);
+        CHECK(out[static_cast<std::size_t>(x)] == Approx(expected).margin(1e-3));
+      }
+    }
+    CHECK(grid.cell_of(0) == 0);
+    CHECK(grid.cell_of(static_cast<int>(cell_px) - 1) == 0);
+    CHECK(grid.cell_of(static_cast<int>(cell_px)) == 1);
+  }
+}
+
+TEST_CASE("half the size sums by twos, an odd border counting twice") {
+  const cv::Mat1f image = (cv::Mat1f(3, 5) << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  cv::Mat1f half;
+  sum_by_twos(image, 0.25F, half);
+  const cv::Mat1f expected = (cv::Mat1f(2, 3) << 4, 6, 7.5, 11.5, 13.5, 15);
+  CHECK(cv::norm(half, expected) == 0.0);
+  sum_by_twos(cv::Mat1f(1, 1, 3.0F), 1.0F, half);
+  CHECK(half.size() == cv::Size(1, 1));
+  CHECK(half(0) == 12.0F);
+}
+
+TEST_CASE("a sum of products of any length") {
+  const cv::Mat1f a = random_image({100, 1}, 5);
+  const cv::Mat1f b = random_image({100, 1}, 6);
+  for (const int count : {0, 1, 31, 32, 33, 100}) {
+    double expected = 0.0;
+    for (int i = 0; i < count; ++i) expected += static_cast<double>(a(i)) * static_cast<double>(b(i));
+    CHECK(dot(a[0], b[0], count) == Approx(expected).margin(1e-5));
+  }
+}
