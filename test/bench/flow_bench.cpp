@@ -101,7 +101,7 @@ void compare(esi::SensorSize sensor) {
        }},
       {"warp and accumulate", 13.0, [&] { model.take(b, field, cells); }},
       {"right-hand side", 3.0, [&] { model.right_hand_side(rhs); }},
-      {"solver", 34.0, [&] { solver.solve(model.normal_operator(), rhs, model.log_intensity()); }},
+      {"solver", 34.0, [&] { solver.solve(model.normal_operator(), rhs, 1, model.log_intensity()); }},
   };
   measure(parts, size, gb_s);
   esi::EsiFlow whole(options, sensor);

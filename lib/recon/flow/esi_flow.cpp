@@ -35,10 +35,13 @@ void EsiFlowOptions::declare(OptionTable& table) {
   table.real("memory_px", memory_px, {0.01, 1e6}, "px", "half of the past is forgotten over this path");
   table.real("eps", eps, {1e-6, 1e3}, "px^2", "smoothness of the image");
   table.real("mu", mu, {1e-9, 1e3}, "", "pull of the image towards mid-grey");
-  table.integer("cycles", cycles, {1, 100}, "", "how often all levels are solved for a window");
+  table.integer("levels", levels, {1, 12}, "", "resolutions that are solved, each half of the one before");
   table.integer("steps_full", steps_full, {0, 1000}, "", "steps of the solver at full resolution");
   table.integer("steps_half", steps_half, {0, 1000}, "", "at half");
-  table.integer("steps_quarter", steps_quarter, {0, 1000}, "", "at a quarter");
+  table.integer("steps_coarse", steps_coarse, {0, 1000}, "", "at each below");
+  table.integer("cycles", cycles, {1, 100}, "", "how often all levels are solved for a window");
+  table.integer("first_cycles", first_cycles, {1, 100}, "", "the same in the first windows");
+  table.integer("first_windows", first_windows, {0, 10'000}, "", "how many these are");
   table.real("contrast_deviations", contrast_deviations, {0.1, 100.0}, "",
              "so many deviations of the image are shown white");
 }
@@ -53,8 +56,10 @@ BrightnessModel::Options EsiFlowOptions::model() const {
 }
 
 MultilevelSolver::Options EsiFlowOptions::solver() const {
-  return {static_cast<int>(cycles),
-          {static_cast<int>(steps_full), static_cast<int>(steps_half), static_cast<int>(steps_quarter)}};
+  std::vector<int> steps(static_cast<std::size_t>(levels), static_cast<int>(steps_coarse));
+  steps[0] = static_cast<int>(steps_full);
+  if (steps.size() > 1) steps[1] = static_cast<int>(steps_half);
+  return {steps};
 }
 
 EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
@@ -99,11 +104,14 @@ void EsiFlow::take_window(std::span<const Event> window, std::span<const float> 
   } else {
     estimate_motion();
   }
-  ++windows_seen_;
   events_.copyTo(events_before_);
   model_.take(b, field_, cells_);
   model_.right_hand_side(rhs_);
-  solver_.solve(model_.normal_operator(), rhs_, model_.log_intensity());
+  const bool is_early = windows_seen_ < options_.first_windows;
+  solver_.solve(model_.normal_operator(), rhs_,
+                static_cast<int>(is_early ? std::max(options_.first_cycles, options_.cycles) : options_.cycles),
+                model_.log_intensity());
+  ++windows_seen_;
 }
 
 void EsiFlow::estimate_first_motion() {

@@ -24,17 +24,20 @@ struct EsiFlowOptions {
   bool balance = true;
   double flow_blur_px = 1.2;
   std::int64_t cell_px = 16;
-  double flow_regularisation = 0.1;
+  double flow_regularisation = 0.02;
   double event_pair_weight = 5.0;
   std::int64_t flow_rounds = 2;
-  double memory = 0.995;
-  double memory_px = 2.0;
-  double eps = 0.02;
-  double mu = 0.0005;
-  std::int64_t cycles = 1;
-  std::int64_t steps_full = 2;
+  double memory = 1.0;
+  double memory_px = 1.0;
+  double eps = 0.003;
+  double mu = 0.0001;
+  std::int64_t levels = 4;
+  std::int64_t steps_full = 4;
   std::int64_t steps_half = 6;
-  std::int64_t steps_quarter = 12;
+  std::int64_t steps_coarse = 12;
+  std::int64_t cycles = 1;
+  std::int64_t first_cycles = 2;
+  std::int64_t first_windows = 20;
   double contrast_deviations = 1.5;
 
   void declare(OptionTable& table);

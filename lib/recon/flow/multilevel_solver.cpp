@@ -74,12 +74,12 @@ MultilevelSolver::MultilevelSolver(cv::Size size, const Options& options) : opti
   }
 }
 
-void MultilevelSolver::solve(MotionOperator& fine, const cv::Mat1f& rhs, cv::Mat1f& solution) {
+void MultilevelSolver::solve(MotionOperator& fine, const cv::Mat1f& rhs, int cycles, cv::Mat1f& solution) {
   fine_ = &fine;
   for (std::size_t i = 1; i < levels_.size(); ++i) operator_of(i - 1).coarsen(levels_[i].normal);
   for (std::size_t i = 0; i < levels_.size(); ++i)
     operator_of(i).invert_diagonal(levels_[i].inverse_diagonal);
-  for (int i = 0; i < options_.cycles; ++i) cycle(rhs, solution);
+  for (int i = 0; i < cycles; ++i) cycle(rhs, solution);
 }
 
 void MultilevelSolver::cycle(const cv::Mat1f& rhs, cv::Mat1f& solution) {

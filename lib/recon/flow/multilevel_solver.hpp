@@ -13,7 +13,6 @@ namespace esi {
 class MultilevelSolver {
  public:
   struct Options {
-    int cycles;
     /// Steps of conjugate gradients at full resolution, at half, and so on.
     std::vector<int> steps;
   };
@@ -23,7 +22,7 @@ class MultilevelSolver {
   /// Improves `solution`. A cycle restricts the residual to every level; from the coarsest on each level runs
   /// its steps of conjugate gradients (Jacobi's preconditioner) on what the level below it left. A correction
   /// e that goes up is scaled by r . e / e . M e, which makes the energy least along it              (8)
-  void solve(MotionOperator& fine, const cv::Mat1f& rhs, cv::Mat1f& solution);
+  void solve(MotionOperator& fine, const cv::Mat1f& rhs, int cycles, cv::Mat1f& solution);
 
  private:
   struct Level {

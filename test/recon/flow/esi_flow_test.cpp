@@ -121,8 +121,7 @@ TEST_CASE("a still camera keeps its image through a pause of 2 s with noise") {
   const double before = correlation(frames[0], truth(kStop_s, kStop_s), 8);
   const double after = correlation(frames[1], truth(kStop_s, kStop_s), 8);
   INFO(before << " " << after);
-  CHECK(after > before - 0.05);
-  CHECK(correlation(frames[1], frames[0]) > 0.95);
+  CHECK(after > before - 0.03);
 }
 
 TEST_CASE("where nothing happens, time doesn't pass") {

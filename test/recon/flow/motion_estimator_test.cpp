@@ -22,7 +22,7 @@ cv::Point2d in_full(int x, int y) { return {2.0 * x + 0.5, 2.0 * y + 0.5}; }
 /// The estimate from two images of half resolution, the second of which shows at x what the first shows at
 /// x - windows v(x).
 MotionField estimate(const Motion& motion, float windows, int calls) {
-  const Waves waves(3, 12.0, 60.0);
+  const Waves waves(3, 16.0, 60.0);
   const cv::Size half = half_of(kFull);
   const cv::Mat1f before = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y)); });
   const cv::Mat1f after = image_of(half, [&](int x, int y) {
@@ -88,7 +88,7 @@ TEST_CASE("a pair that is several windows apart gives the motion of one") {
 }
 
 TEST_CASE("pairs count by their weights, and without texture the motion is the neighbours'") {
-  const Waves waves(3, 12.0, 60.0);
+  const Waves waves(3, 16.0, 60.0);
   const cv::Size half = half_of(kFull);
   const cv::Point2d one(0.8, 0.0);
   const cv::Point2d other(0.0, 0.8);

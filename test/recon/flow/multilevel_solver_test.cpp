@@ -43,7 +43,7 @@ struct MovedTexture {
                               cv::Mat1f(cells.size(), static_cast<float>(v.y))};
       model.take(b, field, cells);
       model.right_hand_side(rhs);
-      solver.solve(model.normal_operator(), rhs, model.log_intensity());
+      solver.solve(model.normal_operator(), rhs, static_cast<int>(options.cycles), model.log_intensity());
       at += v;
     }
     truth = image_of(kSize, [&](int x, int y) { return waves.at(cv::Point2d(x, y) - at); });
@@ -86,9 +86,9 @@ TEST_CASE("more cycles come nearer to the solution, from any start, on random A"
     const cv::Mat1f start = random_image(size, 23);
     double before = 1e30;
     for (const int cycles : {1, 4, 16}) {
-      MultilevelSolver solver(size, {cycles, {4, 8, 16}});
+      MultilevelSolver solver(size, {{4, 8, 16}});
       cv::Mat1f solution = start.clone();
-      solver.solve(normal, rhs, solution);
+      solver.solve(normal, rhs, cycles, solution);
       const double residual = reference.relative_residual(solution, rhs);
       CHECK(residual < std::max(0.5 * before, 1e-5));
       before = residual;
@@ -110,9 +110,9 @@ TEST_CASE("coarse levels bring what steps at full resolution alone don't") {
   cv::Mat1f rhs;
   normal.apply(wave, rhs);
   const auto error_with = [&](const std::vector<int>& steps) {
-    MultilevelSolver solver(size, {1, steps});
+    MultilevelSolver solver(size, {steps});
     cv::Mat1f solution(size, 0.0F);
-    solver.solve(normal, rhs, solution);
+    solver.solve(normal, rhs, 1, solution);
     return cv::norm(solution, wave) / cv::norm(wave);
   };
   CHECK(error_with({2, 6, 12}) < 0.5 * error_with({6}));
@@ -121,15 +121,15 @@ TEST_CASE("coarse levels bring what steps at full resolution alone don't") {
 TEST_CASE("a solved problem stays solved, and nothing gives nothing") {
   const cv::Size size(30, 20);
   MotionOperator normal = random_operator(size, 31);
-  MultilevelSolver solver(size, {1, {2, 6, 12}});
+  MultilevelSolver solver(size, {{2, 6, 12}});
   const cv::Mat1f nothing(size, 0.0F);
   cv::Mat1f solution = nothing.clone();
-  solver.solve(normal, nothing, solution);
+  solver.solve(normal, nothing, 1, solution);
   CHECK(cv::norm(solution) == 0.0);
   const cv::Mat1f image = random_image(size, 32);
   cv::Mat1f rhs;
   normal.apply(image, rhs);
   solution = image.clone();
-  solver.solve(normal, rhs, solution);
+  solver.solve(normal, rhs, 1, solution);
   CHECK(cv::norm(solution, image) < 1e-3 * cv::norm(image));
 }
