@@ -108,8 +108,8 @@ TEST_CASE("pairs count by their weights, and without texture the motion is the n
     const std::array pairs{MovedPair{before, after_one, weight_one, 1.0F},
                            MovedPair{before, after_other, weight_other, 1.0F}};
     for (int i = 0; i < 200; ++i) estimator.improve(pairs, field);
-    CHECK(field.x(4, 8) == Approx(field.x(4, 6)).margin(0.1));  // carried over into the flat part
-    CHECK(field.y(4, 8) == Approx(field.y(4, 6)).margin(0.1));
+    CHECK(field.x(4, 8) == Approx(field.x(4, 6)).margin(0.2));  // carried over into the flat part
+    CHECK(field.y(4, 8) == Approx(field.y(4, 6)).margin(0.2));
     return cv::Point2d(field.x(4, 2), field.y(4, 2));
   };
   CHECK(cv::norm(mean_of(1.0F, 0.0F) - one) < 0.1);
