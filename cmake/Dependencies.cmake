@@ -24,7 +24,7 @@ macro(esi_find_module module package)
 endmacro()
 
 esi_find_package(Threads libc6-dev)
-esi_find_package(OpenCV libopencv-dev COMPONENTS core calib3d dnn imgproc imgcodecs videoio)
+esi_find_package(OpenCV libopencv-dev COMPONENTS core calib3d dnn imgproc imgcodecs video videoio)
 esi_find_package(CLI11 libcli11-dev)
 esi_find_package(nlohmann_json nlohmann-json3-dev)
 esi_find_package(fmt libfmt-dev)

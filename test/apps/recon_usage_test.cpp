@@ -28,7 +28,8 @@ TEST_CASE("wrong usage is exit code 2 and one line, and nothing is written") {
       Row{{"--method", "eis"}, "did you mean"}, Row{{"--size", "346"}, "346x260"},
       Row{{"--packets"}, "--packets"}, Row{{"--packets", "--every-events", "5"}, "exclude each other"},
       Row{{"--roi", "10,0,5x5"}, "sensor"}, Row{{"--time-unit", "weeks"}, "s | ms | us | ns"},
-      Row{{"--force", "--resume"}, "--resume"});
+      Row{{"--force", "--resume"}, "--resume"}, Row{{"--flow-out", "flow"}, "method 'esi' doesn't"},
+      Row{{"--method", "esi-flow", "--flow-out", "flow", "--resume"}, "--flow-out"});
   const TempFolder folder;
   const std::string recording = folder.write("events.txt", sample_text(100, 1000));
   std::vector<std::string> arguments = {recording, "-o", folder / "out", "--size", "12x9"};
