@@ -108,9 +108,10 @@ void EsiFlow::take_window(std::span<const Event> window, std::span<const float> 
   model_.take(b, field_, cells_);
   model_.right_hand_side(rhs_);
   const bool is_early = windows_seen_ < options_.first_windows;
-  solver_.solve(model_.normal_operator(), rhs_,
-                static_cast<int>(is_early ? std::max(options_.first_cycles, options_.cycles) : options_.cycles),
-                model_.log_intensity());
+  solver_.solve(
+      model_.normal_operator(), rhs_,
+      static_cast<int>(is_early ? std::max(options_.first_cycles, options_.cycles) : options_.cycles),
+      model_.log_intensity());
   ++windows_seen_;
 }
 
@@ -145,7 +146,8 @@ const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {
   const std::int64_t passed_us = t_us - open * options_.window_us;
   const bool goes_on = last_event_us_ && index_of(*last_event_us_) == open && last_window_ == open - 1;
   if (!goes_on || passed_us == 0) return model_.log_intensity();
-  const auto share = static_cast<float>(static_cast<double>(passed_us) / static_cast<double>(options_.window_us));
+  const auto share =
+      static_cast<float>(static_cast<double>(passed_us) / static_cast<double>(options_.window_us));
   model_.move_image(field_, cells_, share, moved_on_);
   return moved_on_;
 }

@@ -118,11 +118,8 @@ void MultilevelSolver::conjugate_gradients(Level& level, MotionOperator& normal,
   double remaining = dot(direction, residual, count);
   for (int i = 0; i < steps && remaining > kNothing; ++i) {
     const double energy = normal.apply(level.direction, level.product);
-    const auto step = static_cast<float>(remaining / energy);
-    add_scaled(count, step, direction, solution[0]);
-    add_scaled(count, -step, level.product[0], residual);
-    multiply(count, inverse, residual, level.product[0]);
-    const double next = dot(level.product[0], residual, count);
+    const double next = step_along(count, static_cast<float>(remaining / energy), direction, level.product[0],
+                                   inverse, solution[0], residual);
     turn(count, static_cast<float>(next / remaining), inverse, residual, direction);
     remaining = next;
   }
