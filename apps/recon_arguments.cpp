@@ -51,9 +51,10 @@ bool parse_recon_arguments(int argc, const char* const* argv, ReconArguments& ar
   app.add_option("-o,--output", arguments.output,
                  "a folder for PNG files, a video (.mp4, .mkv, .avi), or - for YUV4MPEG2 on standard output")
       ->type_name("OUT");
-  app.add_option("--flow-out", arguments.flow_output,
-                 "a folder for the image's motion in px/s, where the method estimates it: Middlebury .flo files, "
-                 "and pictures in which the hue is the direction")
+  app.add_option(
+         "--flow-out", arguments.flow_output,
+         "a folder for the image's motion in px/s, where the method estimates it: Middlebury .flo files, "
+         "and pictures in which the hue is the direction")
       ->type_name("DIR");
   app.add_option("--method", method, "method, or a config file with one (see --list-methods)")
       ->type_name("NAME");

@@ -62,8 +62,8 @@ std::unique_ptr<FrameSink> open_sink(const ReconJob& job, const ReconConfig& con
                                      const SinkContext& context) {
   if (job.motion_output.empty()) return open_frame_sink(job.output, config.sink, context);
   if (method.motion() == nullptr) {
-    throw usage_error(fmt::format("--flow-out: method '{}' doesn't estimate motion; esi-flow does",
-                                  config.method().name));
+    throw usage_error(
+        fmt::format("--flow-out: method '{}' doesn't estimate motion; esi-flow does", config.method().name));
   }
   if (fs::absolute(job.motion_output).lexically_normal() == fs::absolute(job.output).lexically_normal()) {
     throw usage_error("--flow-out needs a folder of its own, not that of the frames");

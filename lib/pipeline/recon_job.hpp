@@ -13,7 +13,7 @@ struct ReconJob {
   std::filesystem::path recording;  ///< "-" is standard input
   std::filesystem::path output;     ///< see open_frame_sink
   int threads = 1;
-  std::string tool;  ///< who asks, for run.json
+  std::string tool;                          ///< who asks, for run.json
   std::filesystem::path motion_output = {};  ///< a folder for the image's motion; empty: none
 };
 

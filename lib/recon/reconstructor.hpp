@@ -30,8 +30,8 @@ class Reconstructor {
   /// The same as an image: levels rounded and clamped.
   virtual void render(std::int64_t t_us, cv::Mat1b& grey);
 
-  /// How the image moves where the last frame was made: px per second, right and down, at every pixel. nullptr
-  /// for methods that don't estimate motion, which is so from the first call on.
+  /// How the image moves where the last frame was made: px per second, right and down, at every pixel.
+  /// nullptr for methods that don't estimate motion, which is so from the first call on.
   virtual const cv::Mat2f* motion() { return nullptr; }
 
  private:

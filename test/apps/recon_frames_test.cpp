@@ -228,14 +228,14 @@ TEST_CASE("a recording ten times longer takes the same memory") {
 TEST_CASE("esi-flow writes the image's motion beside each frame") {
   const TempFolder folder;
   const std::string recording = folder.write("events.txt", sample_text(10000, 10));
-  const std::vector<std::string> arguments = {recording,  "-o",       folder / "out", "--size",
-                                              "12x9",     "--method", "esi-flow",     "--flow-out",
-                                              folder / "flow"};
+  const std::vector<std::string> arguments = {recording,  "-o",       folder / "out", "--size",       "12x9",
+                                              "--method", "esi-flow", "--flow-out",   folder / "flow"};
   const auto result = run_tool("esi-recon", arguments);
   CAPTURE(result.err);
   CHECK(result.exit_code == 0);
   std::size_t frames = 0, fields = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "out")) frames += entry.path().extension() == ".png";
+  for (const auto& entry : fs::directory_iterator(folder / "out"))
+    frames += entry.path().extension() == ".png";
   for (const auto& entry : fs::directory_iterator(folder / "flow")) {
     if (entry.path().extension() != ".flo") continue;
     ++fields;

@@ -101,7 +101,8 @@ void compare(esi::SensorSize sensor) {
        }},
       {"warp and accumulate", 13.0, [&] { model.take(b, field, cells); }},
       {"right-hand side", 3.0, [&] { model.right_hand_side(rhs); }},
-      {"solver", 5.0 + 3.0 + 3.0 + 6.0 + 1.0 + 16.0 * static_cast<double>(options.steps_full), [&] { solver.solve(model.normal_operator(), rhs, 1, model.log_intensity()); }},
+      {"solver", 5.0 + 3.0 + 3.0 + 6.0 + 1.0 + 16.0 * static_cast<double>(options.steps_full),
+       [&] { solver.solve(model.normal_operator(), rhs, 1, model.log_intensity()); }},
   };
   measure(parts, size, gb_s);
   esi::EsiFlow whole(options, sensor);

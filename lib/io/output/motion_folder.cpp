@@ -28,7 +28,8 @@ bool is_of_motion(std::string_view name) {
   if (name == "run.json") return true;
   if (!name.starts_with(prefix) || !(name.ends_with(".flo") || name.ends_with(".png"))) return false;
   const auto digits = name.substr(prefix.size(), name.size() - prefix.size() - extension);
-  return !digits.empty() && std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !digits.empty() &&
+         std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 constexpr bool has_no_folder(std::string_view /*name*/) { return false; }

@@ -10,6 +10,8 @@ namespace {
 
 /// Pixels of the full resolution in one of the half.
 constexpr float kHalf = 2.0F;
+/// Of a window's motion: nothing that is faster can be followed.
+constexpr float kLargest_px = 64.0F;
 
 ESI_SIMD void mean_and_difference(int cols, const float* __restrict moved, const float* __restrict after,
                                   float* __restrict mean, float* __restrict difference) {
@@ -130,8 +132,8 @@ void MotionEstimator::step(MotionField& field) {
     const float x = rx(i) + reg * (mean_x(i) - field.x(i));
     const float y = ry(i) + reg * (mean_y(i) - field.y(i));
     const float determinant = a * d - b * b;
-    field.x(i) += (d * x - b * y) / determinant;
-    field.y(i) += (a * y - b * x) / determinant;
+    field.x(i) = std::clamp(field.x(i) + (d * x - b * y) / determinant, -kLargest_px, kLargest_px);
+    field.y(i) = std::clamp(field.y(i) + (a * y - b * x) / determinant, -kLargest_px, kLargest_px);
   }
 }
 

@@ -42,7 +42,7 @@ class MotionEstimator {
   ///   v += (T + reg I)^-1 (rhs + reg (mean of neighbours - v))                                   (2)
   /// where, with m the motion-compensated mean of a pair's images and e their difference,
   ///   T = sum weight grad m grad m^T,  rhs = -sum weight grad m e                                (3)
-  /// over a cell, smoothed by [1 2 1] twice; then by a median of 3x3 cells.
+  /// over a cell, smoothed by [1 2 1] twice; then by a median of 3x3 cells. At most 64 px.
   void improve(std::span<const MovedPair> pairs, MotionField& field);
 
  private:

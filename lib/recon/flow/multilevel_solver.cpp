@@ -118,6 +118,7 @@ void MultilevelSolver::conjugate_gradients(Level& level, MotionOperator& normal,
   double remaining = dot(direction, residual, count);
   for (int i = 0; i < steps && remaining > kNothing; ++i) {
     const double energy = normal.apply(level.direction, level.product);
+    if (energy < kNothing) return;
     const double next = step_along(count, static_cast<float>(remaining / energy), direction, level.product[0],
                                    inverse, solution[0], residual);
     turn(count, static_cast<float>(next / remaining), inverse, residual, direction);

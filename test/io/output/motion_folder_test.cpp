@@ -54,9 +54,9 @@ TEST_CASE("in the picture hue is direction, and the faster the more of it") {
   motion(4) = {20.0F, 0.0F};
   const cv::Mat3b picture = motion_picture(motion);
   CHECK(picture(0) == cv::Vec3b(255, 255, 255));
-  CHECK(picture(1) == cv::Vec3b(0, 0, 255));    // red, BGR
+  CHECK(picture(1) == cv::Vec3b(0, 0, 255));                               // red, BGR
   CHECK(cv::norm(cv::Vec3i(picture(2)) - cv::Vec3i(0, 255, 128)) <= 1.0);  // 90 degrees: yellow-green
-  CHECK(picture(3) == cv::Vec3b(255, 255, 0));  // cyan
+  CHECK(picture(3) == cv::Vec3b(255, 255, 0));                             // cyan
   CHECK(picture(4) == cv::Vec3b(128, 128, 255));
   // What is slower than 1 isn't blown up.
   CHECK(motion_picture(cv::Mat2f(1, 1, cv::Vec2f(0.1F, 0.0F)))(0) == cv::Vec3b(230, 230, 255));

@@ -38,7 +38,8 @@ cv::Mat1f truth(double t_s, double stop_s = 1e9) {
 /// Those with t < t_us, from `given` on, which is moved on.
 std::span<const Event> events_until(const std::vector<Event>& events, std::size_t& given, std::int64_t t_us) {
   const auto begin = events.begin() + static_cast<std::ptrdiff_t>(given);
-  const auto end = std::partition_point(begin, events.end(), [t_us](const Event& e) { return e.t_us < t_us; });
+  const auto end =
+      std::partition_point(begin, events.end(), [t_us](const Event& e) { return e.t_us < t_us; });
   const std::span<const Event> due(begin, end);
   given += due.size();
   return due;
@@ -126,8 +127,28 @@ TEST_CASE("a still camera keeps its image through a pause of 2 s with noise") {
 
 TEST_CASE("where nothing happens, time doesn't pass") {
   const auto expected = frames_of({}, moving_events(), {600'000});
-  const auto later = frames_of({}, moving_events(), {600'000, 2'004'000, std::int64_t{1} << 60});
+  const auto later = frames_of({}, moving_events(), {600'000, 605'000, 2'004'000, std::int64_t{1} << 60});
   for (const cv::Mat1f& frame : later) CHECK(cv::norm(frame, expected[0], cv::NORM_INF) == 0.0);
+}
+
+TEST_CASE("after windows without events motion begins from zero") {
+  EsiFlow flow({}, kSize);
+  std::size_t given = 0;
+  flow.process(events_until(moving_events(), given, 500'000));
+  levels_at(flow, 500'000);
+  CHECK(cv::norm(cv::mean(*flow.motion())) > 40.0);
+  flow.process(std::vector<Event>{{520'000, 3, 3, true}});
+  levels_at(flow, 530'000);
+  CHECK(cv::norm(cv::mean(*flow.motion())) < 10.0);
+}
+
+TEST_CASE("a window counts by its share of 10 ms") {
+  EsiFlowOptions options;
+  options.memory = 0.81;
+  options.window_us = 5000;
+  CHECK(options.model().weight == 2.0F);
+  CHECK(options.model().memory == Approx(0.9));
+  CHECK(options.model().eps == static_cast<float>(options.eps));
 }
 
 TEST_CASE("the motion that is shown is that of the scene, in px per second") {
