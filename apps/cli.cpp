@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "cli_docs.hpp"
@@ -15,6 +16,9 @@ namespace esi::cli {
 namespace {
 
 constexpr int kMaxThreads = 1024;
+
+/// What was said since hold_messages(); one process has one stderr.
+std::optional<std::string> held;
 
 /// Seconds go without saying on a command line; other units stay in the name.
 std::string flag_name(const Option& option) {
@@ -45,9 +49,18 @@ std::string extras_text(const CLI::App& app) {
 }  // namespace
 
 void say(const std::string& tool, const std::string& what) {
-  fmt::print(stderr, "{}: {}\n", tool, what);
+  const std::string line = fmt::format("{}: {}\n", tool, what);
+  if (held) {
+    *held += line;
+    return;
+  }
+  fmt::print(stderr, "{}", line);
   std::fflush(stderr);
 }
+
+void hold_messages() { held = ""; }
+
+std::string held_messages() { return held.value_or(""); }
 
 int report(const std::string& tool, const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {

@@ -35,6 +35,9 @@ int guarded(const std::string& tool, const std::function<int()>& body);
 
 /// One line on stderr: "esi-recon: what happened".
 void say(const std::string& tool, const std::string& what);
+/// From here on say() keeps its lines for who asks for them: a process of several that say the same.
+void hold_messages();
+std::string held_messages();
 /// The line and the exit code for an exception.
 int report(const std::string& tool, const std::exception& error);
 

@@ -38,6 +38,10 @@ esi_find_module(libzip libzip-dev)
 esi_find_module(libzstd libzstd-dev)
 esi_find_module(zlib zlib1g-dev)
 
+if(ESI_WITH_MPI)
+  esi_find_package(MPI "libopenmpi-dev openmpi-bin" COMPONENTS C)
+endif()
+
 find_program(FLATC flatc)
 if(NOT FLATC)
   esi_missing(flatc flatbuffers-compiler)

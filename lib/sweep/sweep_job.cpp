@@ -10,6 +10,8 @@
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
 #include "esi/sweep/block_runner.hpp"
+#include "esi/sweep/remote_work.hpp"
+#include "esi/sweep/sweep_desk.hpp"
 #include "esi/sweep/sweep_folder.hpp"
 #include "esi/sweep/sweep_report.hpp"
 
@@ -79,10 +81,10 @@ class Sweeper {
     SweepStore store(job_.output, first_line());
     remove_file(job_.output / kRunName);
     write_file(job_.output / kSweepConfigName, json_text(config_.json_with_inputs()));
-    if (job_.team != nullptr) job_.team->begin(true);
-    const Observer go_on = [this](const Progress&) { return !is_stopping_; };
+    SweepQueue queue(store, header_, job_.shard, limits());
+    const Observer go_on = [&](const Progress&) { return !queue.is_stopped(); };
     const BlockRunner runner(header_, runs_, go_on);
-    SweepQueue queue(store, header_, job_.shard, limits(runner));
+    if (job_.team != nullptr && !job_.team->begin()) return stopped();
     run_blocks(queue, runner, job_.threads, [&] { watch(queue); });
     if (!queue.is_complete()) return stopped();
     return report(store, queue.progress().second);
@@ -94,11 +96,11 @@ class Sweeper {
     return line;
   }
 
-  BlockLimits limits(const BlockRunner& runner) const {
+  BlockLimits limits() const {
     const int processes = job_.team == nullptr ? 1 : job_.team->processes();
     BlockLimits limits;
     limits.workers = static_cast<std::size_t>(job_.threads) * static_cast<std::size_t>(processes);
-    limits.most_cells = runner.most_cells();
+    limits.most_cells = BlockRunner(header_, runs_, {}).most_cells();
     return limits;
   }
 
@@ -107,8 +109,13 @@ class Sweeper {
       const auto [done, known] = queue.progress();
       if (!tell({done, known})) queue.stop();
     };
-    if (job_.team != nullptr) return job_.team->serve(queue, tick);
-    while (!queue.wait_for_end(kTick)) tick();
+    if (job_.team == nullptr) {
+      while (!queue.wait_for_end(kTick)) tick();
+      return;
+    }
+    SweepDesk desk(queue, header_);
+    job_.team->serve([&](const std::string& question) { return desk.answer(question); }, tick);
+    desk.rethrow();
   }
 
   SweepReport report(const SweepStore& store, std::size_t cells) {
@@ -127,12 +134,17 @@ class Sweeper {
   }
 
   SweepReport follow() {
-    SweepReport report;
-    if (!job_.team->begin(false)) return stopped();
-    const Observer go_on = [this](const Progress&) { return !is_stopping_; };
+    if (!job_.team->begin()) return stopped();
+    RemoteWork work(*job_.team, header_);
+    const Observer go_on = [&](const Progress&) { return !work.has_ended(); };
     const BlockRunner runner(header_, runs_, go_on);
-    const std::unique_ptr<SweepWork> work = job_.team->leaders_work();
-    run_blocks(*work, runner, job_.threads, {});
+    run_blocks(work, runner, job_.threads, [&] {
+      while (!work.wait_for_end(kTick)) {
+        if (!tell({})) work.stop();
+      }
+    });
+    SweepReport report;
+    report.stopped = is_stopping_;
     return report;
   }
 

@@ -65,8 +65,7 @@ bool SweepQueue::advance() {
   return true;
 }
 
-std::optional<SweepBlock> SweepQueue::next() {
-  std::unique_lock lock(mutex_);
+SweepTurn SweepQueue::take_turn() {
   while (!is_stopped_ && !is_complete_) {
     for (std::size_t recording = 0; recording < waiting_.size(); ++recording) {
       std::deque<std::size_t>& cells = waiting_[recording];
@@ -76,16 +75,27 @@ std::optional<SweepBlock> SweepQueue::next() {
       block.cells.assign(cells.begin(), end);
       cells.erase(cells.begin(), end);
       ++in_progress_;
-      return block;
+      return {block, false};
     }
-    if (in_progress_ > 0) {
-      changed_.wait(lock);
-    } else if (!advance()) {
-      is_complete_ = true;
-    }
+    if (in_progress_ > 0) return {};
+    if (!advance()) is_complete_ = true;
   }
   changed_.notify_all();
-  return std::nullopt;
+  return {std::nullopt, true};
+}
+
+std::optional<SweepBlock> SweepQueue::next() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    SweepTurn turn = take_turn();
+    if (turn.block || turn.has_ended) return std::move(turn.block);
+    changed_.wait(lock);
+  }
+}
+
+SweepTurn SweepQueue::try_next() {
+  const std::lock_guard lock(mutex_);
+  return take_turn();
 }
 
 std::size_t SweepQueue::block_cells(std::size_t recording) const {
@@ -116,6 +126,11 @@ void SweepQueue::stop() {
   const std::lock_guard lock(mutex_);
   is_stopped_ = true;
   changed_.notify_all();
+}
+
+bool SweepQueue::is_stopped() const {
+  const std::lock_guard lock(mutex_);
+  return is_stopped_;
 }
 
 bool SweepQueue::is_complete() const {

@@ -31,6 +31,12 @@ struct BlockLimits {
   double seconds = 60.0;       ///< about as long a block takes: what a kill can lose
 };
 
+/// What there is to do for someone who can't wait.
+struct SweepTurn {
+  std::optional<SweepBlock> block;
+  bool has_ended = false;  ///< without a block: there will be none any more, not only none yet
+};
+
 /// Everything that a sweep has still to do, round by round, kept in the store as it is done.
 class SweepQueue final : public SweepWork {
  public:
@@ -41,6 +47,10 @@ class SweepQueue final : public SweepWork {
   void finish(const SweepBlock& block, std::vector<CellRecord> records, double seconds) override;
   void stop() override;
 
+  /// As next(), but where that would wait the turn has neither a block nor ended.
+  SweepTurn try_next();
+
+  bool is_stopped() const;
   /// Nothing is left, nothing was stopped.
   bool is_complete() const;
   /// Waits until nothing is left or it was stopped, but not longer. Whether that is so.
@@ -51,6 +61,7 @@ class SweepQueue final : public SweepWork {
  private:
   void begin_round();
   bool advance();
+  SweepTurn take_turn();
   std::size_t block_cells(std::size_t recording) const;
 
   SweepStore& store_;
