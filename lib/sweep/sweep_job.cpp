@@ -79,6 +79,7 @@ class Sweeper {
   SweepReport lead() {
     prepare_sweep_folder(job_.output);
     SweepStore store(job_.output, first_line());
+    header_ = store.header();
     remove_file(job_.output / kRunName);
     write_file(job_.output / kSweepConfigName, json_text(config_.json_with_inputs()));
     SweepQueue queue(store, header_, job_.shard, limits());

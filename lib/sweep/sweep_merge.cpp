@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "esi/core/error.hpp"
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
 #include "esi/sweep/sweep_folder.hpp"
 #include "esi/sweep/sweep_job.hpp"
+#include "esi/sweep/sweep_parts.hpp"
 #include "esi/sweep/sweep_report.hpp"
 #include "esi/sweep/sweep_results.hpp"
 
@@ -16,61 +18,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Part {
-  fs::path folder;
-  StoreContent content;
-  SweepShard shard;
-};
-
-std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
-  std::vector<Part> parts;
-  for (const fs::path& folder : folders) {
-    Part part{folder, read_store(folder), {}};
-    if (part.content.header.contains("shard")) {
-      part.shard = parse_shard(part.content.header["shard"].get<std::string>());
-    }
-    const std::string other =
-        parts.empty() ? "" : difference(parts.front().content.header, part.content.header);
-    if (!other.empty()) {
-      throw usage_error(fmt::format("{} and {}: belong to different sweeps ({})", folders.front().string(),
-                                    folder.string(), other));
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
+void refuse_as_output(const fs::path& folder, const fs::path& output) {
+  std::error_code error;
+  if (!fs::equivalent(folder, output, error)) return;
+  throw usage_error(fmt::format("-o {}: is one of the shards; choose a folder of its own", output.string()));
 }
 
-/// The command that makes what a shard lacks; into the shard's folder, if it is among these.
-std::string command_for(const std::vector<Part>& parts, const SweepShard& shard) {
-  const auto is_it = [&](const Part& part) { return to_string(part.shard) == to_string(shard); };
-  const auto own = std::find_if(parts.begin(), parts.end(), is_it);
-  const std::string folder =
-      own != parts.end() ? own->folder.string() : fmt::format("shard-{}-of-{}", shard.index, shard.count);
-  const std::string config = (parts.front().folder / kSweepConfigName).string();
-  return fmt::format("esi-sweep --config {}{} -o {}", config,
-                     shard.is_all() ? "" : " --shard " + to_string(shard), folder);
-}
-
-[[noreturn]] void refuse_missing(const std::vector<Part>& parts, const SweepHeader& header,
+[[noreturn]] void refuse_missing(const std::vector<SweepPart>& parts, const SweepHeader& header,
                                  const std::vector<std::pair<std::size_t, std::size_t>>& missing) {
   constexpr std::size_t kShown = 5;
   const SweepGrid grid = header.config.grid();
-  const std::size_t count = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
-                              return a.shard.count < b.shard.count;
-                            })->shard.count;
-  std::string cells, commands;
+  std::string cells;
   for (std::size_t i = 0; i < std::min(missing.size(), kShown); ++i) {
     cells += fmt::format("{}{} ({}) on {}", i == 0 ? "" : "; ", missing[i].first, grid.text(missing[i].first),
                          header.recordings[missing[i].second].path);
   }
-  for (std::size_t index = 1; index <= count; ++index) {
-    const SweepShard shard{index, count};
+  std::size_t count = 1;
+  for (const SweepPart& part : parts) count = std::max(count, part.shard.count);
+  std::vector<SweepShard> lacking;
+  for (SweepShard shard{1, count}; shard.index <= count; ++shard.index) {
     const auto lacks = [&](const auto& cell) { return shard.has(cell.first); };
-    if (!std::any_of(missing.begin(), missing.end(), lacks)) continue;
-    commands += (commands.empty() ? "" : " && ") + command_for(parts, shard);
+    if (std::any_of(missing.begin(), missing.end(), lacks)) lacking.push_back(shard);
   }
-  throw Error(fmt::format("{} cells are missing: {}{}; make them with: {}", missing.size(), cells,
-                          missing.size() > kShown ? "; ..." : "", commands));
+  const std::string more =
+      lacking.size() > kShown ? fmt::format(" (and {} more shards)", lacking.size() - kShown) : "";
+  lacking.resize(std::min(lacking.size(), kShown));
+  throw Error(fmt::format("{} cells are missing: {}{}; make them with: {}{}", missing.size(), cells,
+                          missing.size() > kShown ? "; ..." : "", command_for(parts, lacking), more));
 }
 
 }  // namespace
@@ -78,19 +52,22 @@ std::string command_for(const std::vector<Part>& parts, const SweepShard& shard)
 SweepReport merge_sweeps(const std::vector<fs::path>& folders, const SweepJob& job) {
   const auto began = std::chrono::steady_clock::now();
   if (folders.empty()) throw usage_error("give the folders of a sweep's shards");
-  std::vector<Part> parts = read_parts(folders);
-  const SweepHeader header = header_from(parts.front().content.header);
-  nlohmann::json first_line = to_json(header);
+  for (const fs::path& folder : folders) refuse_as_output(folder, job.output);
+  std::vector<SweepPart> parts = read_parts(folders);
+  const SweepHeader header = header_of(parts);
   std::vector<CellRecord> records;
-  for (Part& part : parts) {
+  for (const SweepPart& part : parts) {
     records.insert(records.end(), part.content.records.begin(), part.content.records.end());
   }
   if (const auto missing = missing_cells(header, records); !missing.empty()) {
     refuse_missing(parts, header, missing);
   }
   prepare_sweep_folder(job.output);
-  SweepStore store(job.output, first_line);
+  SweepStore store(job.output, to_json(header));
   remove_file(job.output / kRunName);
+  if (const fs::path config = config_of(parts); !config.empty()) {
+    write_file(job.output / kSweepConfigName, read_text_file(config));
+  }
   for (CellRecord& record : records) store.add(std::move(record));
   SweepReport report;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - began;

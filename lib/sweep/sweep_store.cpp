@@ -61,6 +61,7 @@ SweepStore::SweepStore(const std::filesystem::path& folder, const nlohmann::json
   } else {
     refuse_other_sweep(content.header, header, path_);
   }
+  header_ = content.header.is_null() ? header : std::move(content.header);
   for (CellRecord& record : content.records) {
     if (known_.insert({record.cell, record.recording, record.round}).second) {
       records_.push_back(std::move(record));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -33,6 +34,8 @@ class SweepStore {
   /// Error where another run holds it or where a line in it is damaged.
   SweepStore(const std::filesystem::path& folder, const nlohmann::json& header);
 
+  /// Of the run that made the store: its recordings are called what they were called then.
+  SweepHeader header() const { return header_from(header_); }
   const std::vector<CellRecord>& records() const { return records_; }
   bool has(std::size_t cell, std::size_t recording, std::int64_t round) const {
     return known_.contains({cell, recording, round});
@@ -42,6 +45,7 @@ class SweepStore {
  private:
   std::filesystem::path path_;
   JournalFile journal_;
+  nlohmann::json header_;
   std::vector<CellRecord> records_;
   std::set<std::tuple<std::size_t, std::size_t, std::int64_t>> known_;
 };
