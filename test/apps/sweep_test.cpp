@@ -1,5 +1,6 @@
 // esi-sweep: the same bytes however the work was spread, and whatever ended it in between.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <random>
 
 #include "apps/sweep_command.hpp"
@@ -29,10 +30,13 @@ TEST_CASE("one thread, two and three merged shards give the same bytes") {
 TEST_CASE("killed twenty times at random moments, a sweep goes on and gives the same bytes") {
   const TempFolder folder;
   const std::string arguments = small_sweep() + "--threads 2";
+  const auto began = std::chrono::steady_clock::now();
   REQUIRE(sweep(folder / "whole", arguments).exit_code == 0);
+  // Moments of the run's own length: this machine may be slow or busy.
+  const double whole_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   std::mt19937 random(20261122);
-  std::uniform_real_distribution<double> seconds(0.05, 0.6);
-  int killed = 0;
+  std::uniform_real_distribution<double> seconds(0.1 * whole_s, 0.8 * whole_s);
+  int killed = 0, killed_midway = 0;
   for (int i = 0; i < 20; ++i) {
     const auto result =
         run_shell("timeout -s KILL " + std::to_string(seconds(random)) + " " + quoted(tool("esi-sweep")) +
@@ -43,9 +47,12 @@ TEST_CASE("killed twenty times at random moments, a sweep goes on and gives the 
       std::filesystem::remove_all(folder / "out");
     } else {
       ++killed;
+      const auto store = folder / "out" / "cells.jsonl";
+      if (std::filesystem::exists(store) && lines_of(store).size() > 1) ++killed_midway;
     }
   }
   CHECK(killed > 0);
+  CHECK(killed_midway > 0);
   REQUIRE(sweep(folder / "out", arguments).exit_code == 0);
   CHECK(digest_of_sweep(folder / "out") == digest_of_sweep(folder / "whole"));
 }
