@@ -7,8 +7,8 @@
 
 #include "esi/core/error.hpp"
 #include "esi/io/output/run_manifest.hpp"
-#include "esi/pipeline/motion_sink.hpp"
 #include "esi/pipeline/ready_method.hpp"
+#include "esi/pipeline/reconstruction/motion_sink.hpp"
 
 namespace esi {
 namespace {

@@ -10,7 +10,8 @@ namespace {
 ESI_SIMD void sum_rows(int pairs, const float* __restrict upper, const float* __restrict lower, float factor,
                        float* __restrict out) {
   for (int x = 0; x < pairs; ++x) {
-    out[x] = factor * ((upper[2 * x] + upper[2 * x + 1]) + (lower[2 * x] + lower[2 * x + 1]));
+    const int i = 2 * x;
+    out[x] = factor * ((upper[i] + upper[i + 1]) + (lower[i] + lower[i + 1]));
   }
 }
 

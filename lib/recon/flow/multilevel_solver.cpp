@@ -36,8 +36,9 @@ ESI_SIMD void turn(int count, float factor, const float* __restrict inverse_diag
 /// it.
 ESI_SIMD void double_row(int coarse_cols, const float* __restrict line, float* __restrict out) {
   for (int x = 0; x < coarse_cols; ++x) {
-    out[2 * x] = 0.75F * line[x + 1] + 0.25F * line[x];
-    out[2 * x + 1] = 0.75F * line[x + 1] + 0.25F * line[x + 2];
+    const int i = 2 * x;
+    out[i] = 0.75F * line[x + 1] + 0.25F * line[x];
+    out[i + 1] = 0.75F * line[x + 1] + 0.25F * line[x + 2];
   }
 }
 
