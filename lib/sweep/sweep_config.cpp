@@ -53,6 +53,7 @@ std::vector<AskedAxis> axes_from(const nlohmann::json& grid) {
       throw usage_error("grid: each entry of a list has an \"option\" and its \"values\"");
     }
     axes.push_back(parse_axis(entry["option"].get<std::string>(), entry["values"]));
+    if (entry.value("logarithmic", false)) axes.back().is_logarithmic = true;
   }
   return axes;
 }
@@ -141,6 +142,7 @@ nlohmann::json SweepConfig::json() const {
   const SweepGrid all = grid();
   for (const SweepAxis& axis : all.axes()) {
     config["grid"].push_back({{"option", axis.option}, {"values", axis.values}});
+    if (axis.is_logarithmic) config["grid"].back()["logarithmic"] = true;
   }
   return config;
 }

@@ -80,7 +80,9 @@ TEST_CASE("A config that was printed is the same sweep when it is read") {
   config.judging.stride = 4;
   config.search.search = SearchOptions::Search::halving;
   config.detector.quad_decimate = 2.0;
-  CHECK(config_from(config.json()).json() == config.json());
+  const SweepConfig read = config_from(config.json());
+  CHECK(read.json() == config.json());
+  CHECK(read.grid().axes()[1].is_logarithmic);
 }
 
 TEST_CASE("A config written by hand may be short, its recordings lie beside it") {
