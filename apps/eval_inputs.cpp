@@ -38,6 +38,7 @@ void give_truths(std::vector<EvalInput>& inputs, const std::vector<std::string>&
 std::vector<EvalInput> recordings_with_truths(const std::vector<std::string>& recordings,
                                               const std::vector<std::string>& truths) {
   std::vector<EvalInput> inputs;
+  inputs.reserve(recordings.size());
   for (const std::string& path : recordings) inputs.push_back({path, {}, false});
   give_truths(inputs, truths);
   return inputs;

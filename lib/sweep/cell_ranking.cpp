@@ -48,6 +48,7 @@ std::vector<std::size_t> best_cells_of_values(const SweepOutcome& outcome, std::
     if (!found || ranks_before(outcome, cell, outcome.cells[*found])) found = cell.cell;
   }
   std::vector<std::size_t> cells;
+  cells.reserve(best.size());
   for (const auto& found : best) cells.push_back(found.value_or(outcome.best));
   return cells;
 }

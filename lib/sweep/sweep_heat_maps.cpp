@@ -84,8 +84,8 @@ std::string caption_of(const SweepOutcome& outcome, const AxisPair& pair, std::s
 }
 
 std::string name_of(const SweepOutcome& outcome, const AxisPair& pair, std::size_t phase) {
-  const std::string name = figure_name(outcome.grid.axes()[pair.first].option) + "-" +
-                           figure_name(outcome.grid.axes()[pair.second].option);
+  std::string name = figure_name(outcome.grid.axes()[pair.first].option) + "-" +
+                     figure_name(outcome.grid.axes()[pair.second].option);
   if (phase == outcome.phases.size()) return name;
   return fmt::format("{}-{}-{}", name, phase + 1, figure_name(outcome.phases[phase]));
 }

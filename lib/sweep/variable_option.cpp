@@ -72,6 +72,7 @@ VariableOption& option_named(std::vector<VariableOption>& options, const std::st
   const auto found = std::find_if(options.begin(), options.end(), has_name);
   if (found != options.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(options.size());
   for (const VariableOption& option : options) names.push_back(option.name());
   throw usage_error(fmt::format("grid {}: there is no such option to sweep; did you mean '{}'?", name,
                                 nearest_name(name, names)));
