@@ -50,12 +50,26 @@ void add_flags(CLI::App& app, Given& given, SweepArguments& arguments) {
   app.add_flag("--plan", arguments.plan, "print how many cells there are and how long they take, and end");
 }
 
+void refuse_set_of_swept(const std::vector<std::string>& sets, const SweepGrid& grid) {
+  for (const std::string& assignment : sets) {
+    for (const SweepAxis& axis : grid.axes()) {
+      if (assignment.substr(0, assignment.find('=')) != axis.option) continue;
+      throw usage_error(fmt::format("--set {}: the grid varies {}", assignment, axis.option));
+    }
+  }
+}
+
 void take_config(const Given& given, TableFlags& flags, SweepConfig& config) {
   for (const std::string& file : given.config_files) config.load(file);
   if (!given.method.empty()) config.choose_method(given.method);
   for (const std::string& assignment : given.sets) config.base.set(assignment);
   for (const std::string& axis : given.grid) config.add_axis(parse_axis(axis));
   flags.apply();
+  refuse_set_of_swept(given.sets, config.grid());
+  if (given.recordings.empty() && !given.truths.empty()) {
+    throw usage_error(
+        "-g goes with recordings on the command line; those of a config have their truths there");
+  }
   if (!given.recordings.empty()) config.inputs = recordings_with_truths(given.recordings, given.truths);
 }
 
@@ -71,7 +85,6 @@ bool parse_sweep(int argc, const char* const* argv, SweepArguments& arguments, i
   arguments.running.add(app);
   if (!parse(app, argc, argv, exit_code)) return false;
   take_config(given, flags, arguments.config);
-  arguments.config.check();
   arguments.job.threads = checked_threads("--threads", arguments.running.threads);
   if (!given.shard.empty()) arguments.job.shard = parse_shard(given.shard);
   if (!arguments.running.print_config && !arguments.plan) arguments.job.output = output_folder(given.output);

@@ -65,8 +65,9 @@ std::unique_ptr<FrameSink> open_sink(const ReconJob& job, const ReconConfig& con
     throw usage_error(
         fmt::format("--flow-out: method '{}' doesn't estimate motion; esi-flow does", config.method().name));
   }
-  if (fs::absolute(job.motion_output).lexically_normal() == fs::absolute(job.output).lexically_normal()) {
-    throw usage_error("--flow-out needs a folder of its own, not that of the frames");
+  const std::string frames_folder = (fs::absolute(job.output) / "").lexically_normal().string();
+  if ((fs::absolute(job.motion_output) / "").lexically_normal().string().starts_with(frames_folder)) {
+    throw usage_error("--flow-out needs a folder of its own, neither that of the frames nor one within it");
   }
   if (config.sink.resume) throw usage_error("--flow-out can't be resumed; leave --resume or --flow-out away");
   require_usable_folder(job.motion_output, config.sink, kMotionContent);

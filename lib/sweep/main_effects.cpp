@@ -33,6 +33,16 @@ std::string listed(Effects effects, Predicate predicate) {
 
 bool is_judged(const ValueEffect& effect) { return effect.points && effect.points95; }
 
+/// That nothing matters is said only where it is known this closely: percentage points.
+constexpr double kCertainPoints = 5.0;
+
+bool is_certain(Effects effects) {
+  return std::all_of(effects.begin(), effects.end(), [](const ValueEffect& effect) {
+    return effect.is_best || (is_judged(effect) && effect.points95->low > -kCertainPoints &&
+                              effect.points95->high < kCertainPoints);
+  });
+}
+
 /// The value that costs most; nullptr where none costs.
 const ValueEffect* dearest(Effects effects) {
   const ValueEffect* found = nullptr;
@@ -66,7 +76,7 @@ std::string no_effect(const SweepAxis& axis, Effects effects) {
   const std::string range =
       axis.numbers.empty() ? fmt::format("({})", listed(effects, [](const auto&) { return true; }))
                            : fmt::format("between {} and {}", effects.front().value, effects.back().value);
-  if (std::abs(*largest->points) < kLeastEffectPoints) {
+  if (std::abs(*largest->points) < kLeastEffectPoints && is_certain(effects)) {
     return fmt::format("{} does not matter {}: within {:.1f} points.{}", axis.option, range,
                        std::abs(*largest->points), unjudged_text(effects));
   }

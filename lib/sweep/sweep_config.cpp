@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "esi/core/error.hpp"
@@ -13,7 +14,7 @@
 namespace esi {
 namespace {
 
-constexpr double kMostCells = 10'000'000;
+constexpr double kMostCells = 1'000'000;
 
 ReconConfig copy_of(const ReconConfig& config) {
   ReconConfig copy;
@@ -30,6 +31,32 @@ FrameOptions part_of(const FrameOptions& frames) {
   part.roi = frames.roi;
   part.max_frames = frames.max_frames;
   return part;
+}
+
+/// Large enough for any method to be made, which is when options that don't go together are found.
+constexpr SensorSize kTrialSize{32, 32};
+
+void set_values(std::vector<VariableOption>& options, const SweepGrid& grid, std::size_t cell) {
+  const std::vector<std::size_t> position = grid.position(cell);
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const SweepAxis& axis = grid.axes()[i];
+    option_named(options, axis.option).set_text(axis.values[position[i]]);
+  }
+}
+
+/// Cells that see other frames can't be compared frame by frame, which halving lives on.
+void refuse_schedules_without_effect(const SweepConfig& config, const SweepGrid& grid) {
+  const FrameOptions& frames = config.base.frames;
+  for (const SweepAxis& axis : grid.axes()) {
+    if (axis.option != "fps" && axis.option != "every_events") continue;
+    if (config.search.search == SearchOptions::Search::halving) {
+      throw usage_error(fmt::format("grid {}: halving compares cells on the same frames", axis.option));
+    }
+    const bool is_fixed = !frames.times.empty() || frames.packets || frames.at_frames ||
+                          (axis.option == "fps" && frames.every_events > 0);
+    if (is_fixed)
+      throw usage_error(fmt::format("grid {}: another option says when frames are due", axis.option));
+  }
 }
 
 void refuse_too_many(const std::vector<SweepAxis>& axes) {
@@ -161,8 +188,13 @@ SweepGrid SweepConfig::grid() const {
   ReconConfig scratch = copy_of(base);
   std::vector<VariableOption> options = variable_options(scratch);
   std::vector<std::pair<std::size_t, SweepAxis>> placed;
+  std::set<std::string> varied;
   for (const AskedAxis& asked : asked_) {
     VariableOption& option = option_named(options, asked.option);
+    for (const std::string& name : option.option_names()) {
+      if (varied.insert(name).second) continue;
+      throw usage_error(fmt::format("grid {}: {} is varied by another axis, too", asked.option, name));
+    }
     placed.emplace_back(&option - options.data(), checked_axis(asked, option));
   }
   std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -176,11 +208,7 @@ SweepGrid SweepConfig::grid() const {
 ReconConfig SweepConfig::cell_config(const SweepGrid& grid, std::size_t cell) const {
   ReconConfig config = copy_of(base);
   std::vector<VariableOption> options = variable_options(config);
-  const std::vector<std::size_t> position = grid.position(cell);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const SweepAxis& axis = grid.axes()[i];
-    option_named(options, axis.option).set_text(axis.values[position[i]]);
-  }
+  set_values(options, grid, cell);
   return config;
 }
 
@@ -204,10 +232,15 @@ void SweepConfig::check() const {
   detector.check();
   base.frames.check();
   const SweepGrid all = grid();
+  refuse_schedules_without_effect(*this, all);
+  ReconConfig config = copy_of(base);
+  std::vector<VariableOption> options = variable_options(config);
+  const bool needs_files = config.method_options().find("model") != nullptr;
   for (std::size_t cell = 0; cell < all.cells(); ++cell) {
-    const ReconConfig config = cell_config(all, cell);
+    set_values(options, all, cell);
     config.frames.check();
     config.steps.check();
+    if (!needs_files) config.method_config().create(kTrialSize);
   }
 }
 

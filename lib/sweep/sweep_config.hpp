@@ -48,8 +48,8 @@ class SweepConfig {
   nlohmann::json json_with_inputs() const;
 
   /// Axes in the order in which their options are declared, so that it makes no difference how they were
-  /// given. Throws a usage Error for an option that the method doesn't have or that can't be swept, for
-  /// values out of its bounds, and for more cells than any machine would get through.
+  /// given. Throws a usage Error for an option that the method doesn't have or that can't be swept, for two
+  /// axes of one option, for values out of its bounds, and for more cells than any machine would get through.
   SweepGrid grid() const;
   /// The base with a cell's values.
   ReconConfig cell_config(const SweepGrid& grid, std::size_t cell) const;

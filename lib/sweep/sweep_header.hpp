@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct SweptRecording {
   std::string truth_crc32;  ///< of the ground truth with its corners
   double duration_s = 0.0;
   std::vector<Phase> phases;
+  SensorSize size;
+  std::string lost;  ///< what was damaged and left out, in words; empty for nothing
 };
 
 /// What a sweep is: the first line of its store. Lines of stores with equal headers belong together.
@@ -25,7 +28,11 @@ struct SweepHeader {
   std::string version;  ///< of the program: another may find other tags
   SweepConfig config;
   std::vector<SweptRecording> recordings;
+  std::map<std::string, std::string> files;  ///< that options name, such as times or weights: their CRC-32
 };
+
+/// "a.h5: 3 cut_line; b.h5: ..."; empty where nothing was lost.
+std::string losses_of(const SweepHeader& header);
 
 nlohmann::json to_json(const SweepHeader& header);
 

@@ -9,6 +9,7 @@
 #include "esi/core/error.hpp"
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
+#include "esi/pipeline/ready_method.hpp"
 #include "esi/sweep/block_runner.hpp"
 #include "esi/sweep/remote_work.hpp"
 #include "esi/sweep/sweep_desk.hpp"
@@ -41,13 +42,19 @@ void check_job(const SweepJob& job, const SweepConfig& config) {
   }
 }
 
-std::string losses_of(const std::vector<InputRun>& runs) {
-  std::string losses;
+/// Before anything is written: whether recordings have what the method needs, and files are what they should
+/// be. Cells that are not possible by themselves have been found by check().
+void try_first_cell(const SweepConfig& config, const std::vector<InputRun>& runs) {
+  const ReconConfig cell = config.cell_config(config.grid(), 0);
   for (const InputRun& run : runs) {
-    if (!run.losses.any()) continue;
-    losses += fmt::format("{}{}: {}", losses.empty() ? "" : "; ", run.input.path.string(), run.losses.text());
+    ReadOptions read = config.base.read;
+    read.size = to_string(run.size);
+    const auto recording = open_recording(run.input.path, read);
+    const SensorSize sensor = recording->sensor_size().value_or(run.size);
+    const std::string name = run.input.path.string();
+    const ReadyMethod ready(
+        cell, {run.input.path, name, read, &recording->header(), sensor, config.base.frames.region()});
   }
-  return losses;
 }
 
 /// One process' part in a sweep.
@@ -61,6 +68,7 @@ class Sweeper {
     header_ = survey(config_, runs_, [this](const Progress&) { return tell({}); });
     if (is_stopping_) return stopped();
     refuse_unknown_objective(config_, header_);
+    try_first_cell(config_, runs_);
     return job_.team == nullptr || job_.team->is_leader() ? lead() : follow();
   }
 
@@ -85,7 +93,7 @@ class Sweeper {
     SweepQueue queue(store, header_, job_.shard, limits());
     const Observer go_on = [&](const Progress&) { return !queue.is_stopped(); };
     const BlockRunner runner(header_, runs_, go_on);
-    if (job_.team != nullptr && !job_.team->begin()) return stopped();
+    if (job_.team != nullptr && !job_.team->begin()) return {};  // another one says why
     run_blocks(queue, runner, job_.threads, [&] { watch(queue); });
     if (!queue.is_complete()) return stopped();
     return report(store, queue.progress().second);
@@ -121,21 +129,21 @@ class Sweeper {
 
   SweepReport report(const SweepStore& store, std::size_t cells) {
     SweepReport report;
-    report.losses = losses_of(runs_);
+    report.losses = losses_of(header_);
     if (!job_.shard.is_all()) {
       report.summary = fmt::format(
-          "shard {}: {} cells on recordings are in {}; esi-sweep merge puts the shards together\n",
+          "shard {}: all its cells ({} on the recordings) are in {}; esi-sweep merge puts the shards "
+          "together\n",
           to_string(job_.shard), cells, job_.output.string());
       return report;
     }
     const double wall_s = std::chrono::duration<double>(Clock::now() - began_).count();
     report.summary = write_results(job_.output, job_.tool, header_, store.records(), {job_.threads, wall_s});
-    report.has_results = true;
     return report;
   }
 
   SweepReport follow() {
-    if (!job_.team->begin()) return stopped();
+    if (!job_.team->begin()) return {};  // another one says why
     RemoteWork work(*job_.team, header_);
     const Observer go_on = [&](const Progress&) { return !work.has_ended(); };
     const BlockRunner runner(header_, runs_, go_on);

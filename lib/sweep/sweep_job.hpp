@@ -28,9 +28,8 @@ using SweepObserver = std::function<bool(const SweepProgress&)>;
 
 struct SweepReport {
   bool stopped = false;
-  bool has_results = false;  ///< a shard has none, nor has who isn't the leader
-  std::string losses;        ///< in words; empty where no input was damaged
-  std::string summary;       ///< for people
+  std::string losses;   ///< in words; empty where no input was damaged
+  std::string summary;  ///< for people
 };
 
 /// Judges every cell of the grid, as its store remembers them, and fills the folder: cells.jsonl as it goes,

@@ -68,11 +68,11 @@ SweepReport merge_sweeps(const std::vector<fs::path>& folders, const SweepJob& j
   if (const fs::path config = config_of(parts); !config.empty()) {
     write_file(job.output / kSweepConfigName, read_text_file(config));
   }
-  for (CellRecord& record : records) store.add(std::move(record));
+  store.add(std::move(records));
   SweepReport report;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - began;
   report.summary = write_results(job.output, job.tool, header, store.records(), {1, wall.count()});
-  report.has_results = true;
+  report.losses = losses_of(header);
   return report;
 }
 

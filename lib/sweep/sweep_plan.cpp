@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "esi/sweep/sweep_header.hpp"
 #include "esi/sweep/sweep_job.hpp"
+#include "esi/sweep/sweep_search.hpp"
 
 namespace esi {
 namespace {
@@ -17,11 +19,13 @@ double seconds_since(Clock::time_point begin) {
 }
 
 /// The middle of the longest phase.
-Interval sample_of(const SweptRecording& recording) {
+Interval sample_of(const SweptRecording& recording, const EventDigest& events) {
   const auto longest = std::max_element(
       recording.phases.begin(), recording.phases.end(),
       [](const Phase& a, const Phase& b) { return a.interval.duration_us() < b.interval.duration_us(); });
-  const Interval whole = longest->interval;
+  const Interval whole{std::max(longest->interval.begin_us, *events.t_first_us()),
+                       std::min(longest->interval.end_us, *events.t_last_us() + 1)};
+  if (whole.is_empty()) return {*events.t_first_us(), *events.t_last_us() + 1};
   const std::int64_t half_us = std::min(us_from_seconds(kSample_s), whole.duration_us()) / 2;
   const std::int64_t middle_us = whole.begin_us + whole.duration_us() / 2;
   return {middle_us - half_us, middle_us + half_us};
@@ -29,7 +33,7 @@ Interval sample_of(const SweptRecording& recording) {
 
 /// Of one cell, for a second of the recording.
 double measured_s(const SweepConfig& config, const InputRun& run, const SweptRecording& recording) {
-  const Interval sample = sample_of(recording);
+  const Interval sample = sample_of(recording, *run.digest);
   const auto evaluation_s = [&](const std::vector<std::size_t>& cells) {
     EvalConfig eval = config.eval_config(config.grid(), cells);
     eval.frames.start_s = static_cast<double>(sample.begin_us) * 1e-6;
@@ -44,6 +48,23 @@ double measured_s(const SweepConfig& config, const InputRun& run, const SweptRec
   };
   const double decode_s = evaluation_s({});  // up to the sample, which has nothing to do with cells
   return std::max(0.0, evaluation_s({0}) - decode_s) / (static_cast<double>(sample.duration_us()) * 1e-6);
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.0f} s", seconds);
+  return seconds < 7200.0 ? fmt::format("{:.0f} minutes", seconds / 60.0)
+                          : fmt::format("{:.1f} hours", seconds / 3600.0);
+}
+
+/// Of all detections those that halving makes, where it drops no more than it must.
+double share_of_halving(const SweepConfig& config, std::size_t cells) {
+  const SweepSearch search(config.search, config.score.bootstrap, 1);
+  double left = static_cast<double>(cells), share = 0.0;
+  for (std::int64_t round = 0; round < search.rounds(); ++round) {
+    share += left / static_cast<double>(search.frames(round).stride);
+    left = std::ceil(left / 2.0);
+  }
+  return share / static_cast<double>(cells);
 }
 
 std::string axes_text(const SweepGrid& grid) {
@@ -67,13 +88,15 @@ std::string plan_text(const SweepConfig& config, int threads) {
   const SweepGrid grid = config.grid();
   const double cell_s = measured_s(config, runs.front(), header.recordings.front());
   const double work_s = cell_s * duration_s * static_cast<double>(grid.cells());
-  const double hours = (work_s / threads + survey_s) / 3600.0;
   std::string text = fmt::format("cells: {} ({})\nrecordings: {}, {:.1f} s in all\n", grid.cells(),
                                  axes_text(grid), header.recordings.size(), duration_s);
-  text += fmt::format("time: about {:.2g} hours with {} thread{}: a cell takes {:.2g} s for a second of {}\n",
-                      hours, threads, threads == 1 ? "" : "s", cell_s, header.recordings.front().path);
+  text += fmt::format("time: about {} with {} thread{}: a cell takes {:.2g} s for a second of {}\n",
+                      time_text(work_s / threads + survey_s), threads, threads == 1 ? "" : "s", cell_s,
+                      header.recordings.front().path);
   if (config.search.search == SearchOptions::Search::halving) {
-    text += "halving takes less: detections are at least 5 times fewer, reconstruction is not\n";
+    text += fmt::format(
+        "halving takes less: at least {:.1f} times fewer detections, reconstruction is not saved\n",
+        1.0 / share_of_halving(config, grid.cells()));
   }
   return text;
 }

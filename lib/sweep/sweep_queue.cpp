@@ -113,11 +113,9 @@ void SweepQueue::finish(const SweepBlock& block, std::vector<CellRecord> records
   if (block.round == round_ && duration_s > 0.0) {
     seconds_per_cell_second_ = seconds / (static_cast<double>(block.cells.size()) * duration_s);
   }
-  for (CellRecord& record : records) {
-    ledger_.add(record);
-    store_.add(std::move(record));
-    ++done_;
-  }
+  for (const CellRecord& record : records) ledger_.add(record);
+  done_ += records.size();
+  store_.add(std::move(records));
   --in_progress_;
   changed_.notify_all();
 }

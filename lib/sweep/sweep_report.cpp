@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
 #include "esi/sweep/main_effects.hpp"
@@ -45,6 +47,16 @@ std::string summary_text(const SweepHeader& header, const SweepOutcome& outcome)
   return text;
 }
 
+/// Of recordings that say it nowhere themselves the truth knew it; whoever takes best.json may not have one.
+std::optional<SensorSize> common_size(const SweepHeader& header) {
+  if (header.config.base.frames.region()) return std::nullopt;
+  const SensorSize first = header.recordings.front().size;
+  for (const SweptRecording& recording : header.recordings) {
+    if (recording.size != first) return std::nullopt;
+  }
+  return first;
+}
+
 }  // namespace
 
 std::string write_results(const std::filesystem::path& folder, const std::string& tool,
@@ -53,9 +65,12 @@ std::string write_results(const std::filesystem::path& folder, const std::string
   const SweepOutcome outcome = outcome_of(header, records);
   nlohmann::json best = header.config.cell_config(outcome.grid, outcome.best).json();
   for (const char* key : {"force", "resume"}) best.erase(key);
+  if (const auto size = common_size(header); size && best["size"] == "") best["size"] = to_string(*size);
   write_sweep_files(folder, outcome, best, how_text(header, outcome));
-  write_file(folder / kRunName,
-             json_text({{"tool", tool}, {"sweep", to_json(header)}, {"run", to_json(run)}}));
+  write_file(
+      folder / kRunName,
+      json_text(
+          {{"tool", tool}, {"sweep", to_json(header)}, {"lost", losses_of(header)}, {"run", to_json(run)}}));
   return summary_text(header, outcome);
 }
 

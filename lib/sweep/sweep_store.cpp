@@ -8,9 +8,29 @@
 namespace esi {
 namespace {
 
+constexpr const char* kSum = "line_crc32";
+
+/// With a sum over all else, so that no damage is taken for a result.
+std::string line_of(nlohmann::json object) {
+  object[kSum] = crc32_of(object.dump());
+  return object.dump();
+}
+
+nlohmann::json object_in(const std::string& line) {
+  nlohmann::json object = nlohmann::json::parse(line);
+  if (!object.is_object() || !object.contains(kSum)) throw Error("is no line of a store");
+  const nlohmann::json sum = object[kSum];
+  object.erase(kSum);
+  if (sum != crc32_of(object.dump())) throw Error("its sum is wrong");
+  return object;
+}
+
 void refuse_other_sweep(const nlohmann::json& there, const nlohmann::json& wanted,
                         const std::filesystem::path& path) {
-  const std::string what = difference(there, wanted);
+  const auto shard_in = [](const nlohmann::json& header) { return header.value("shard", "no shard"); };
+  const std::string what = shard_in(there) == shard_in(wanted)
+                               ? difference(there, wanted)
+                               : fmt::format("shard was {} and is {}", shard_in(there), shard_in(wanted));
   if (what.empty()) return;
   throw usage_error(
       fmt::format("{}: holds the cells of another sweep ({}); choose another folder, or take this one away",
@@ -33,11 +53,11 @@ StoreContent parse_store(const std::vector<std::string>& lines, const std::files
   std::size_t line = 0;  // before the one that is read
   try {
     if (lines.empty()) return content;
-    content.header = nlohmann::json::parse(lines[line]);
+    content.header = object_in(lines[line]);
     const SweepHeader header = header_from(content.header);
     const std::size_t cells = header.config.grid().cells();
     for (++line; line < lines.size(); ++line) {
-      content.records.push_back(checked_record(nlohmann::json::parse(lines[line]), header, cells));
+      content.records.push_back(checked_record(object_in(lines[line]), header, cells));
     }
     return content;
   } catch (const std::exception& error) {  // of JSON or ours
@@ -57,7 +77,7 @@ SweepStore::SweepStore(const std::filesystem::path& folder, const nlohmann::json
     : path_(folder / kStoreName), journal_(path_, folder.string()) {
   StoreContent content = parse_store(journal_.lines(), path_);
   if (content.header.is_null()) {
-    journal_.append(header.dump());
+    journal_.append(line_of(header));
   } else {
     refuse_other_sweep(content.header, header, path_);
   }
@@ -69,10 +89,14 @@ SweepStore::SweepStore(const std::filesystem::path& folder, const nlohmann::json
   }
 }
 
-void SweepStore::add(CellRecord record) {
-  if (!known_.insert({record.cell, record.recording, record.round}).second) return;
-  journal_.append(to_json(record).dump());
-  records_.push_back(std::move(record));
+void SweepStore::add(std::vector<CellRecord> records) {
+  std::string lines;
+  for (CellRecord& record : records) {
+    if (!known_.insert({record.cell, record.recording, record.round}).second) continue;
+    lines += (lines.empty() ? "" : "\n") + line_of(to_json(record));
+    records_.push_back(std::move(record));
+  }
+  if (!lines.empty()) journal_.append(lines);
 }
 
 }  // namespace esi

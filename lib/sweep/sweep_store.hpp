@@ -40,7 +40,7 @@ class SweepStore {
   bool has(std::size_t cell, std::size_t recording, std::int64_t round) const {
     return known_.contains({cell, recording, round});
   }
-  void add(CellRecord record);
+  void add(std::vector<CellRecord> records);
 
  private:
   std::filesystem::path path_;

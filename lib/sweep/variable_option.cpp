@@ -51,6 +51,13 @@ void VariableOption::set_text(std::string_view text) {
   }
 }
 
+std::vector<std::string> VariableOption::option_names() const {
+  std::vector<std::string> names;
+  names.reserve(options_.size());
+  for (const Option& option : options_) names.push_back(option.name());
+  return names;
+}
+
 nlohmann::json VariableOption::json() const { return options_.front().json(); }
 
 std::vector<VariableOption> variable_options(ReconConfig& config) {

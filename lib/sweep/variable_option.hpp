@@ -18,6 +18,8 @@ class VariableOption {
   VariableOption(std::string name, std::vector<Option> options, std::vector<double> factors);
 
   const std::string& name() const { return name_; }
+  /// One, or those that go together.
+  std::vector<std::string> option_names() const;
   const std::string& unit() const { return options_.front().unit(); }
 
   /// Throws a usage Error that gives the domain.

@@ -20,7 +20,7 @@ inline SweepHeader header_of(SearchOptions::Search search = SearchOptions::Searc
   header.config.search.first_stride = 4;
   for (const char* const path : {"a.h5", "b.h5"}) {
     header.recordings.push_back(
-        {path, "truth.json", 10, "00000000", "00000000", 40.0, {{"all", {0, 40'000'000}}}});
+        {path, "truth.json", 10, "00000000", "00000000", 40.0, {{"all", {0, 40'000'000}}}, {346, 260}, ""});
   }
   return header;
 }

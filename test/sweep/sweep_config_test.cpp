@@ -115,6 +115,13 @@ TEST_CASE("What is wrong in a sweep is said before any work") {
   CHECK_THROWS_WITH(config_with({"n=1,99"}).grid(), Contains("1 to 8"));
   CHECK_THROWS_WITH(config_with({"tau_s=1:1000:0.1", "alpha_hz=0:999:0.1", "n=1:8:0.001"}).grid(),
                     Contains("cells, more than"));
+  CHECK_THROWS_WITH(config_with({"e_max=1,2", "clamp=1,3"}).grid(),
+                    Contains("e_max") && Contains("another axis"));
+  CHECK_THROWS_WITH(config_with({"e_min=0,3", "e_max=1,2"}).check(), Contains("e_m"));
+  SweepConfig timed = config_with({"fps=10,20"});
+  CHECK_NOTHROW(timed.check());
+  timed.base.frames.every_events = 1000;
+  CHECK_THROWS_WITH(timed.check(), Contains("grid fps"));
   SweepConfig odd;
   odd.search.first_stride = 12;
   CHECK_THROWS_WITH(odd.check(), Contains("power of two"));

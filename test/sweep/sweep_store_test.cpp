@@ -16,7 +16,8 @@ SweepHeader header_of(const std::string& axis = "tau_s=1,2") {
   SweepHeader header;
   header.version = "test";
   header.config.add_axis(parse_axis(axis));
-  header.recordings = {{"a.h5", "truth.json", 10, "12345678", "0", 4.0, {{"all", {0, 4'000'000}}}}};
+  header.recordings = {
+      {"a.h5", "truth.json", 10, "12345678", "0", 4.0, {{"all", {0, 4'000'000}}}, {346, 260}, ""}};
   return header;
 }
 
@@ -24,9 +25,8 @@ CellRecord record_of(std::size_t cell) { return {cell, 0, 0, {{1'000'000, 0, tru
 
 std::filesystem::path filled(const TempFolder& folder) {
   SweepStore store(folder.path(), to_json(header_of()));
-  store.add(record_of(0));
-  store.add(record_of(1));
-  store.add(record_of(1));  // once is enough
+  store.add({record_of(0), record_of(1)});
+  store.add({record_of(1)});  // once is enough
   return folder.path() / kStoreName;
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("A header that was torn is written anew") {
   const TempFolder folder;
   folder.write(kStoreName, R"({"store": "esi-sw)");
   SweepStore store(folder.path(), to_json(header_of()));
-  store.add(record_of(0));
+  store.add({record_of(0)});
   CHECK(read_store(folder.path()).records.size() == 1);
 }
 
@@ -73,6 +73,28 @@ TEST_CASE("A damaged line that is not the last is an error with its number") {
     append(file, std::string(damage) + "\n" + to_json(record_of(0)).dump() + "\n");
     CHECK_THROWS_WITH(SweepStore(folder.path(), to_json(header_of())), Contains("cells.jsonl, line 4"));
   }
+}
+
+TEST_CASE("Any change of a line is noticed, be it a result that could be") {
+  const TempFolder folder;
+  const auto file = filled(folder);
+  std::string text = content_of(file);
+  const std::size_t at = text.find("\"detected\":\"8\"", text.find('\n'));
+  REQUIRE(at != std::string::npos);
+  text[at + 12] = '0';
+  std::ofstream(file) << text;
+  CHECK_THROWS_WITH(SweepStore(folder.path(), to_json(header_of())),
+                    Contains("line 2") && Contains("its sum is wrong"));
+}
+
+TEST_CASE("A folder of one shard takes no other") {
+  const TempFolder folder;
+  nlohmann::json first = to_json(header_of()), second = first;
+  first["shard"] = "1/2";
+  second["shard"] = "2/2";
+  SweepStore(folder.path(), first);
+  CHECK_THROWS_WITH(SweepStore(folder.path(), second), Contains("1/2") && Contains("2/2"));
+  CHECK_THROWS_WITH(SweepStore(folder.path(), to_json(header_of())), Contains("1/2"));
 }
 
 TEST_CASE("A store of another sweep is refused with what differs, a moved recording is not") {

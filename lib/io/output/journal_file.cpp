@@ -53,9 +53,9 @@ void JournalFile::read_lines() {
   }
 }
 
-void JournalFile::append(std::string_view line) {
+void JournalFile::append(std::string_view lines) {
   if (!file_.is_open()) throw Error(path_.string() + ": takes no more lines after one that failed");
-  int error = write_fully(file_.get(), std::string(line) + "\n");
+  int error = write_fully(file_.get(), std::string(lines) + "\n");
   if (error == 0 && ::fsync(file_.get()) != 0) error = errno;
   if (error == 0) return;
   file_.close();

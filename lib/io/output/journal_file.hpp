@@ -20,9 +20,9 @@ class JournalFile {
   /// What was there on opening.
   const std::vector<std::string>& lines() const { return lines_; }
 
-  /// `line` has no line break. Throws an Error with the path and the system's reason; the file then ends in
-  /// a part of the line at most, and takes nothing more.
-  void append(std::string_view line);
+  /// A line, or several with line breaks between. Throws an Error with the path and the system's reason; the
+  /// file then ends in a part of them at most, and takes nothing more.
+  void append(std::string_view lines);
 
  private:
   void read_lines();
