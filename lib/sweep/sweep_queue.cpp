@@ -59,7 +59,7 @@ void SweepQueue::begin_round() {
 /// To the next round that has anything to do. False at the end.
 bool SweepQueue::advance() {
   if (round_ + 1 >= search_.rounds()) return false;
-  cells_ = search_.survivors(ledger_, cells_);
+  cells_ = search_.survivors(ledger_, cells_, round_, header_.config.grid().cells());
   ++round_;
   begin_round();
   return true;

@@ -146,7 +146,8 @@ std::vector<std::pair<std::size_t, std::size_t>> missing_cells(const SweepHeader
     for (const CellRecord& record : records) {
       if (record.round == round) ledger.add(record);
     }
-    if (missing.empty() && round + 1 < search.rounds()) cells = search.survivors(ledger, cells);
+    if (missing.empty() && round + 1 < search.rounds())
+      cells = search.survivors(ledger, cells, round, header.config.grid().cells());
   }
   return missing;
 }

@@ -18,20 +18,22 @@ FrameShare SweepSearch::frames(std::int64_t round) const {
 }
 
 std::vector<std::size_t> SweepSearch::survivors(const CellLedger& ledger,
-                                                const std::vector<std::size_t>& cells) const {
-  std::vector<std::size_t> left = ranked(ledger, cells, options_.objective);
-  left.resize((left.size() + 1) / 2);
-  const Score best = ledger.joined(left.front(), options_.objective);
+                                                const std::vector<std::size_t>& cells, std::int64_t round,
+                                                std::size_t all) const {
+  const std::vector<std::size_t> order = ranked(ledger, cells, options_.objective);
+  const Score best = ledger.joined(order.front(), options_.objective);
   const auto is_worse = [&](std::size_t cell) {
-    if (cell == left.front()) return false;
+    if (cell == order.front()) return false;
     const auto interval =
         paired_difference(ledger.joined(cell, options_.objective), best, bootstrap_).bootstrap;
     return interval && interval->high < 0.0;
   };
-  const std::size_t first = left.front();
+  const std::size_t divisor = std::size_t{2} << round;
+  const std::size_t most = (all + divisor - 1) / divisor;
   std::vector<std::size_t> kept;
-  std::copy_if(left.begin(), left.end(), std::back_inserter(kept),
-               [&](std::size_t cell) { return cell == first || !is_worse(cell); });
+  for (const std::size_t cell : order) {
+    if (kept.size() < most && !is_worse(cell)) kept.push_back(cell);
+  }
   std::sort(kept.begin(), kept.end());
   return kept;
 }

@@ -74,9 +74,13 @@ TEST_CASE("At most the better half of the cells goes on, the best always") {
     ledger.add(record_of(cell, 100, [&](std::int64_t i) { return (i * 37 + shift) % 101 < misses; }));
   }
   const SweepSearch search(halving(16), {}, 1);
-  CHECK(search.survivors(ledger, all_cells(8)) == std::vector<std::size_t>{4, 5, 6, 7});
-  CHECK(search.survivors(ledger, {2, 5, 6}) == std::vector<std::size_t>{5, 6});
-  CHECK(search.survivors(ledger, {3}) == std::vector<std::size_t>{3});
+  CHECK(search.survivors(ledger, all_cells(8), 0, 8) == std::vector<std::size_t>{4, 5, 6, 7});
+  CHECK(search.survivors(ledger, all_cells(8), 1, 8) == std::vector<std::size_t>{6, 7});
+  CHECK(search.survivors(ledger, all_cells(8), 4, 8) == std::vector<std::size_t>{6});
+  // Where few are left anyway, none is dropped that isn't certainly worse.
+  CHECK(search.survivors(ledger, {2, 5, 6}, 1, 8) == std::vector<std::size_t>{5, 6});
+  CHECK(search.survivors(ledger, {5, 6}, 1, 8) == std::vector<std::size_t>{5, 6});
+  CHECK(search.survivors(ledger, {3}, 2, 8) == std::vector<std::size_t>{3});
 }
 
 TEST_CASE("A cell that is certainly worse doesn't go on, even in the better half") {
@@ -86,7 +90,7 @@ TEST_CASE("A cell that is certainly worse doesn't go on, even in the better half
   ledger.add(record_of(1, 100, [](std::int64_t i) { return i % 3 == 0; }));
   ledger.add(record_of(2, 100, [](std::int64_t i) { return i % 2 == 0; }));
   ledger.add(record_of(3, 100, [](std::int64_t) { return true; }));
-  CHECK(SweepSearch(halving(2), {}, 1).survivors(ledger, all_cells(4)) == std::vector<std::size_t>{0});
+  CHECK(SweepSearch(halving(2), {}, 1).survivors(ledger, all_cells(4), 0, 4) == std::vector<std::size_t>{0});
 }
 
 TEST_CASE("Equal rates are told apart by false detections, then corner error, then the grid's order") {
