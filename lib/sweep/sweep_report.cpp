@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
 #include "esi/sweep/main_effects.hpp"
@@ -47,16 +45,6 @@ std::string summary_text(const SweepHeader& header, const SweepOutcome& outcome)
   return text;
 }
 
-/// Of recordings that say it nowhere themselves the truth knew it; whoever takes best.json may not have one.
-std::optional<SensorSize> common_size(const SweepHeader& header) {
-  if (header.config.base.frames.region()) return std::nullopt;
-  const SensorSize first = header.recordings.front().size;
-  for (const SweptRecording& recording : header.recordings) {
-    if (recording.size != first) return std::nullopt;
-  }
-  return first;
-}
-
 }  // namespace
 
 std::string write_results(const std::filesystem::path& folder, const std::string& tool,
@@ -65,7 +53,6 @@ std::string write_results(const std::filesystem::path& folder, const std::string
   const SweepOutcome outcome = outcome_of(header, records);
   nlohmann::json best = header.config.cell_config(outcome.grid, outcome.best).json();
   for (const char* key : {"force", "resume"}) best.erase(key);
-  if (const auto size = common_size(header); size && best["size"] == "") best["size"] = to_string(*size);
   write_sweep_files(folder, outcome, best, how_text(header, outcome));
   write_file(
       folder / kRunName,

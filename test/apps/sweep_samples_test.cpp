@@ -39,7 +39,7 @@ TEST_CASE("the sweep of the samples has every result, and its best config keeps 
   for (const Row& row : csv_rows(out / "table.csv")) {
     if (row.at("cell") != best || row.at("phase") != "total" || row.at("recording") == "all") continue;
     const fs::path recording = row.at("recording"), frames = folder / ("frames" + std::to_string(compared));
-    REQUIRE(run_shell(quoted(tool("esi-recon")) + " " + quoted(recording) + " --config " +
+    REQUIRE(run_shell(quoted(tool("esi-recon")) + " " + quoted(recording) + " --size 128x96 --config " +
                       quoted(out / "best.json") + " --quiet -o " + quoted(frames))
                 .exit_code == 0);
     const fs::path report = folder / ("report" + std::to_string(compared));
