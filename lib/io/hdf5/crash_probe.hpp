@@ -13,7 +13,7 @@ struct CrashProbeLimits {
 
 /// libhdf5 1.10 crashes on some damaged files, or never returns. A child process makes the attempt first, and
 /// dies in our place. Returns how: "signal 11 (Segmentation fault)"; nothing where it came back, with an
-/// Error or without, and where no child could be started.
+/// Error or without, and where no child could be started, or could not allocate (see the .cpp).
 ///
 /// The child has this thread only, holding Hdf5Lock: beyond libhdf5 the attempt must use nothing that other
 /// threads may have locked, such as OpenCV or the standard streams.
