@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -20,11 +19,10 @@
 #include "esi/pipeline/evaluation/result_json.hpp"
 #include "esi/pipeline/evaluation/result_tables.hpp"
 #include "esi/pipeline/evaluation/tracks_output.hpp"
+#include "esi/pipeline/stopwatch.hpp"
 
 namespace esi {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 bool is_file_of_report(std::string_view name) {
   constexpr std::array<std::string_view, 10> kNames = {
@@ -131,7 +129,7 @@ void summarise(const Evaluation& evaluation, const std::vector<InputResult>& res
 }  // namespace
 
 EvalReport run_job(const EvalJob& job, const EvalConfig& config, const Observer& observer) {
-  const auto started = Clock::now();
+  const Stopwatch watch;
   std::vector<InputRun> inputs = load_inputs(config, job.inputs);
   check_job(job, inputs, config);
   const Evaluation evaluation = evaluate(config, std::move(inputs), job.threads, observer);
@@ -140,8 +138,7 @@ EvalReport run_job(const EvalJob& job, const EvalConfig& config, const Observer&
   if (report.stopped) return report;
   const std::vector<InputResult> results = results_of(evaluation, config);
   summarise(evaluation, results, job, report);
-  ReportFolder(job, config)
-      .write(evaluation, results, std::chrono::duration<double>(Clock::now() - started).count());
+  ReportFolder(job, config).write(evaluation, results, watch.seconds());
   return report;
 }
 

@@ -71,4 +71,13 @@ std::unique_ptr<FrameSchedule> FrameOptions::make_schedule() const {
   return std::make_unique<FixedRate>(fps, start_s ? us_from_seconds(*start_s) : 0);
 }
 
+FrameOptions with_schedule_of(FrameOptions part, const FrameOptions& schedule) {
+  part.fps = schedule.fps;
+  part.every_events = schedule.every_events;
+  part.times = schedule.times;
+  part.packets = schedule.packets;
+  part.at_frames = schedule.at_frames;
+  return part;
+}
+
 }  // namespace esi

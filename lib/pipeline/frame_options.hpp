@@ -41,4 +41,7 @@ struct FrameOptions {
   std::unique_ptr<FrameSchedule> make_schedule() const;
 };
 
+/// Which part of a recording is used from the one, when frames are due from the other.
+FrameOptions with_schedule_of(FrameOptions part, const FrameOptions& schedule);
+
 }  // namespace esi

@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "esi/core/error.hpp"
 #include "esi/io/output/run_manifest.hpp"
 #include "esi/pipeline/ready_method.hpp"
 #include "esi/pipeline/reconstruction/motion_sink.hpp"
+#include "esi/pipeline/stopwatch.hpp"
 
 namespace esi {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 std::string name_of(const ReconJob& job) {
   return job.recording == "-" ? "standard input" : job.recording.string();
@@ -79,7 +78,7 @@ std::unique_ptr<FrameSink> open_sink(const ReconJob& job, const ReconConfig& con
 }  // namespace
 
 ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observer& observer) {
-  const auto started = Clock::now();
+  const Stopwatch watch;
   const std::string name = name_of(job);
   config.frames.check();
   refuse_same_file(job);
@@ -100,7 +99,7 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
   report.result =
       reconstruct(source, *schedule, method.reconstructor(), *sink, config.frames.max_frames, name, observer);
   report.losses = source.losses();
-  report.wall_s = std::chrono::duration<double>(Clock::now() - started).count();
+  report.wall_s = watch.seconds();
   if (report.result.stopped) {
     sink->stop();
     return report;

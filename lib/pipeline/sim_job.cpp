@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <ctime>
 
 #include "esi/core/json_text.hpp"
@@ -15,11 +14,10 @@
 #include "esi/pipeline/memory_limit.hpp"
 #include "esi/pipeline/simulation/phase_counts.hpp"
 #include "esi/pipeline/simulation/sim_output.hpp"
+#include "esi/pipeline/stopwatch.hpp"
 
 namespace esi {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // A pixel's state, its light twice, and room for what writers gather; only absurd sizes come near any limit.
 constexpr std::uint64_t kBytesPerPixel = 128;
@@ -76,7 +74,7 @@ class SimRun {
     OutputFolder folder(job_.output, folder_options, "", kSimulationContent);
     const auto outputs = open_sim_outputs(folder.path(), simulator_, config_);
     simulate(outputs, observer);
-    report_.wall_s = std::chrono::duration<double>(Clock::now() - started_).count();
+    report_.wall_s = watch_.seconds();
     if (report_.stopped) return report_;
     for (const auto& output : outputs) output->finish();
     folder.complete(json_text(manifest()));
@@ -139,7 +137,7 @@ class SimRun {
             {"run", run_json()}};
   }
 
-  const Clock::time_point started_ = Clock::now();
+  const Stopwatch watch_;
   const double begun_s_ = cpu_s();
   const SimJob& job_;
   const SimConfig& config_;

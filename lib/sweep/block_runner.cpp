@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <mutex>
 #include <thread>
 
 #include "esi/core/error.hpp"
+#include "esi/pipeline/stopwatch.hpp"
 
 namespace esi {
 namespace {
@@ -16,12 +16,6 @@ namespace {
 constexpr std::uint64_t kBlockBytes = std::uint64_t{1} << 30;
 /// Of each cell beside its method's state: the frames that wait for a detector, and those that are shown.
 constexpr std::uint64_t kCellBytesPerPixel = 48;
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 }  // namespace
 
@@ -77,10 +71,10 @@ void run_blocks(SweepWork& work, const BlockRunner& runner, int threads,
   };
   const auto work_off = [&] {
     while (const auto block = work.next()) {
-      const auto began = Clock::now();
+      const Stopwatch watch;
       auto records = runner.run(*block);
       if (!records) return work.stop();
-      work.finish(*block, std::move(*records), seconds_since(began));
+      work.finish(*block, std::move(*records), watch.seconds());
     }
   };
   std::vector<std::thread> others;

@@ -27,7 +27,7 @@ struct AskedAxis {
 
 /// A list "0.5,1,2", a range "0.4:1.2:0.2" (first, last, step; the last is in it where the steps end there)
 /// or a log range "log:1:8:4" (first, last, how many). Throws a usage Error that shows the forms, and for
-/// more than `most` values.
+/// more than 10,000 values.
 AskedAxis parse_axis(std::string_view name, std::string_view values);
 
 /// "tau_s=0.5,1,2".

@@ -22,17 +22,6 @@ ReconConfig copy_of(const ReconConfig& config) {
   return copy;
 }
 
-/// Which part of the recording is used, without when frames are due.
-FrameOptions part_of(const FrameOptions& frames) {
-  FrameOptions part;
-  part.start_s = frames.start_s;
-  part.end_s = frames.end_s;
-  part.duration_s = frames.duration_s;
-  part.roi = frames.roi;
-  part.max_frames = frames.max_frames;
-  return part;
-}
-
 /// Large enough for any method to be made, which is when options that don't go together are found.
 constexpr SensorSize kTrialSize{32, 32};
 
@@ -215,7 +204,7 @@ ReconConfig SweepConfig::cell_config(const SweepGrid& grid, std::size_t cell) co
 EvalConfig SweepConfig::eval_config(const SweepGrid& grid, const std::vector<std::size_t>& cells) const {
   EvalConfig config;
   config.read = base.read;
-  config.frames = part_of(base.frames);
+  config.frames = with_schedule_of(base.frames, {});
   config.detector = detector;
   config.score = score;
   config.judging = judging;

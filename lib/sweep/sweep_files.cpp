@@ -14,7 +14,6 @@
 namespace esi {
 namespace {
 
-constexpr std::size_t kMostRows = 20;
 constexpr const char* kCurves = "curves";
 constexpr const char* kHeatMaps = "heat_maps";
 
@@ -30,7 +29,7 @@ void add_pictures(std::vector<SweepFile>& files, const std::string& folder,
 std::vector<SweepFile> sweep_files(const SweepOutcome& outcome, const nlohmann::json& best_config,
                                    const std::string& how) {
   const SweepFigures figures{curve_figures(outcome), heat_map_figures(outcome)};
-  const Table best = sweep_table(outcome, kMostRows);
+  const Table best = sweep_table(outcome, kShownCells);
   std::vector<SweepFile> files;
   files.push_back({"table.csv", to_csv(sweep_rows(outcome))});
   files.push_back({"table.md", to_markdown(best)});

@@ -10,6 +10,7 @@
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
 #include "esi/pipeline/ready_method.hpp"
+#include "esi/pipeline/stopwatch.hpp"
 #include "esi/sweep/block_runner.hpp"
 #include "esi/sweep/remote_work.hpp"
 #include "esi/sweep/sweep_desk.hpp"
@@ -19,7 +20,6 @@
 namespace esi {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kTick{100};
 
 void refuse_unknown_objective(const SweepConfig& config, const SweepHeader& header) {
@@ -137,8 +137,8 @@ class Sweeper {
           to_string(job_.shard), cells, job_.output.string());
       return report;
     }
-    const double wall_s = std::chrono::duration<double>(Clock::now() - began_).count();
-    report.summary = write_results(job_.output, job_.tool, header_, store.records(), {job_.threads, wall_s});
+    report.summary =
+        write_results(job_.output, job_.tool, header_, store.records(), {job_.threads, watch_.seconds()});
     return report;
   }
 
@@ -160,7 +160,7 @@ class Sweeper {
   const SweepJob& job_;
   const SweepConfig& config_;
   const SweepObserver& observer_;
-  Clock::time_point began_ = Clock::now();
+  Stopwatch watch_;
   std::atomic<bool> is_stopping_{false};
   SweepHeader header_;
   std::vector<InputRun> runs_;

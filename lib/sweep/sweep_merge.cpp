@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "esi/core/error.hpp"
 #include "esi/core/json_text.hpp"
 #include "esi/io/output/output_file.hpp"
+#include "esi/pipeline/stopwatch.hpp"
 #include "esi/sweep/sweep_folder.hpp"
 #include "esi/sweep/sweep_job.hpp"
 #include "esi/sweep/sweep_parts.hpp"
@@ -50,7 +50,7 @@ void refuse_as_output(const fs::path& folder, const fs::path& output) {
 }  // namespace
 
 SweepReport merge_sweeps(const std::vector<fs::path>& folders, const SweepJob& job) {
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   if (folders.empty()) throw usage_error("give the folders of a sweep's shards");
   for (const fs::path& folder : folders) refuse_as_output(folder, job.output);
   std::vector<SweepPart> parts = read_parts(folders);
@@ -70,8 +70,7 @@ SweepReport merge_sweeps(const std::vector<fs::path>& folders, const SweepJob& j
   }
   store.add(std::move(records));
   SweepReport report;
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - began;
-  report.summary = write_results(job.output, job.tool, header, store.records(), {1, wall.count()});
+  report.summary = write_results(job.output, job.tool, header, store.records(), {1, watch.seconds()});
   report.losses = losses_of(header);
   return report;
 }

@@ -18,6 +18,11 @@ std::string phase_name(const SweepOutcome& outcome, std::size_t phase) {
   return phase < outcome.phases.size() ? outcome.phases[phase] : "total";
 }
 
+bool was_searched(const SweepOutcome& outcome) {
+  return std::any_of(outcome.cells.begin(), outcome.cells.end(),
+                     [](const CellOutcome& cell) { return cell.dropped_after_round.has_value(); });
+}
+
 std::vector<std::size_t> slice_through_best(const SweepOutcome& outcome, std::size_t axis) {
   std::vector<std::size_t> position = outcome.grid.position(outcome.best), slice;
   for (std::size_t value = 0; value < outcome.grid.axes()[axis].values.size(); ++value) {

@@ -48,6 +48,9 @@ std::size_t objective_phase(const SweepOutcome& outcome);
 /// Its name; "total" for all.
 std::string phase_name(const SweepOutcome& outcome, std::size_t phase);
 
+/// Whether some cells were dropped before they had seen all frames.
+bool was_searched(const SweepOutcome& outcome);
+
 /// Cells that differ from the best one in the axis' value alone, one for each value.
 std::vector<std::size_t> slice_through_best(const SweepOutcome& outcome, std::size_t axis);
 

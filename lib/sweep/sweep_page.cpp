@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,8 +13,6 @@
 
 namespace esi {
 namespace {
-
-constexpr std::size_t kMostRows = 20;
 
 void add_effects(HtmlPage& page, const SweepOutcome& outcome) {
   page.heading("What matters");
@@ -44,10 +41,7 @@ void add_best(HtmlPage& page, const SweepOutcome& outcome, const nlohmann::json&
 }
 
 void add_figures(HtmlPage& page, const SweepOutcome& outcome, const SweepFigures& figures) {
-  const bool was_searched =
-      std::any_of(outcome.cells.begin(), outcome.cells.end(),
-                  [](const CellOutcome& cell) { return cell.dropped_after_round.has_value(); });
-  if (was_searched) {
+  if (was_searched(outcome)) {
     page.paragraph(fmt::format(
         "Cells that the search dropped saw fewer frames. In {} they are shown at the best cell's rate plus "
         "their difference to it on frames of both, in other figures at their own rate; a highest rate is one "
@@ -77,7 +71,7 @@ std::string sweep_page(const SweepOutcome& outcome, const SweepFigures& figures,
   add_effects(page, outcome);
   add_best(page, outcome, best_config);
   page.heading("The best cells");
-  page.table(sweep_table(outcome, kMostRows));
+  page.table(sweep_table(outcome, kShownCells));
   add_figures(page, outcome, figures);
   page.heading("How the numbers were made");
   add_lines(page, how);

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "esi/pipeline/stopwatch.hpp"
 #include "esi/sweep/sweep_header.hpp"
 #include "esi/sweep/sweep_job.hpp"
 #include "esi/sweep/sweep_search.hpp"
@@ -11,12 +11,7 @@
 namespace esi {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr double kSample_s = 2.0;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 /// The middle of the longest phase.
 Interval sample_of(const SweptRecording& recording, const EventDigest& events) {
@@ -42,9 +37,9 @@ double measured_s(const SweepConfig& config, const InputRun& run, const SweptRec
     InputRun input;
     input.input = run.input;
     input.truth = run.truth;
-    const auto began = Clock::now();
+    const Stopwatch watch;
     evaluate(eval, {std::move(input)}, 1, {});
-    return seconds_since(began);
+    return watch.seconds();
   };
   const double decode_s = evaluation_s({});  // up to the sample, which has nothing to do with cells
   return std::max(0.0, evaluation_s({0}) - decode_s) / (static_cast<double>(sample.duration_us()) * 1e-6);
@@ -80,9 +75,9 @@ std::string axes_text(const SweepGrid& grid) {
 std::string plan_text(const SweepConfig& config, int threads) {
   config.check();
   std::vector<InputRun> runs;
-  const auto began = Clock::now();
+  const Stopwatch watch;
   const SweepHeader header = survey(config, runs, {});
-  const double survey_s = seconds_since(began);
+  const double survey_s = watch.seconds();
   double duration_s = 0.0;
   for (const SweptRecording& recording : header.recordings) duration_s += recording.duration_s;
   const SweepGrid grid = config.grid();

@@ -73,11 +73,6 @@ std::string points_text(const PairedDifference& difference) {
   return difference.bootstrap ? fmt::format("{} ({})", text, percent_range_text(difference.bootstrap)) : text;
 }
 
-bool was_searched(const SweepOutcome& outcome) {
-  return std::any_of(outcome.cells.begin(), outcome.cells.end(),
-                     [](const CellOutcome& cell) { return cell.dropped_after_round.has_value(); });
-}
-
 std::string caption_of(const SweepOutcome& outcome, std::size_t rows) {
   const std::size_t cells = outcome.cells.size();
   return fmt::format(

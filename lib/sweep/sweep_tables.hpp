@@ -12,6 +12,9 @@ namespace esi {
 /// recordings and of the phase that decides. Numbers that there aren't are empty.
 Table sweep_rows(const SweepOutcome& outcome);
 
+/// Of the best cells, in tables for people.
+constexpr std::size_t kShownCells = 20;
+
 /// For people: the best cells, at most so many, with their rates. One-value axes are left out.
 Table sweep_table(const SweepOutcome& outcome, std::size_t most_rows);
 

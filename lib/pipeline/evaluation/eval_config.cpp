@@ -19,16 +19,6 @@ nlohmann::json json_of(Options options) {
   return table_of(options).json();
 }
 
-/// What of FrameOptions says when frames are due, apart from which part of the recording is used.
-FrameOptions with_schedule_of(FrameOptions part, const FrameOptions& schedule) {
-  part.fps = schedule.fps;
-  part.every_events = schedule.every_events;
-  part.times = schedule.times;
-  part.packets = schedule.packets;
-  part.at_frames = schedule.at_frames;
-  return part;
-}
-
 void refuse_input_options(const EvalMethod& method) {
   if (json_of(method.config.read) == json_of(ReadOptions{})) return;
   throw usage_error(fmt::format(
