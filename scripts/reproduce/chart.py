@@ -2,6 +2,7 @@
 
 import statistics
 
+from . import plan as plans
 from . import tables
 
 PAPER_RATES = {"esi": 81.39, "accumulator": 46.31, "complementary": 43.44, "edi": 14.52}
@@ -12,7 +13,7 @@ DEFAULT, TUNED = "#9ab", "#247"
 def write(run, path):
     scores = tables.scoring(run)
     parts = []
-    for i, method in enumerate(tables.METHODS):
+    for i, method in enumerate(plans.METHODS):
         y = TOP + i * ROW
         parts.append(f'<text x="{LEFT - 8}" y="{y + 17}" text-anchor="end">{method}</text>')
         for label, colour, top in ((method, DEFAULT, y), (method + "-tuned", TUNED, y + BAR)):
@@ -20,7 +21,7 @@ def write(run, path):
         if method in PAPER_RATES:
             x = LEFT + SCALE * PAPER_RATES[method]
             parts.append(f'<path d="M{x:.1f} {y - 3}v{2 * BAR + 6}" stroke="#c30" stroke-width="3"/>')
-    width, height = LEFT + 100 * SCALE + 40, TOP + ROW * len(tables.METHODS)
+    width, height = LEFT + 100 * SCALE + 40, TOP + ROW * len(plans.METHODS)
     legend = "Light: authors' defaults; dark: tuned; black line: lowest to highest seed; red: the paper"
     path.write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" '

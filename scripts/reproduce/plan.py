@@ -5,10 +5,12 @@ import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIGS = ROOT / "configs/recon"
-AT_FPS = ["esi", "esi-adaptive", "accumulator", "accumulator-centred", "highpass", "complementary", "edi-propagated"]
+AT_FPS = ["esi", "esi-adaptive", "esi-flow", "accumulator", "accumulator-centred", "highpass", "complementary",
+          "edi-propagated"]
 AT_FRAMES = ["edi"]  # makes one image per intensity frame
+METHODS = [*AT_FPS, *AT_FRAMES]
 NETWORKS = ["firenet", "firenet-plus"]
-WITHOUT_FRAMES = ["esi", "esi-adaptive", "accumulator", "highpass"]  # what can be tuned on events alone
+WITHOUT_FRAMES = ["esi", "esi-adaptive", "esi-flow", "accumulator", "highpass"]  # what can be tuned on events alone
 
 # Blocks of esi-adaptive, each off, or replaced, or added
 ABLATION = {

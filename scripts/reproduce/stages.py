@@ -70,44 +70,43 @@ def choose(run, methods, where, recordings, options, truths):
 def score(run):
     """Every method with its authors' defaults on the scoring flights."""
     run.simulate("dim", run.plan.scoring)
-    score_each(run, "", [run.default(method) for method in plans.AT_FPS], ["--fps", run.plan.scoring_fps])
-    score_each(run, "-at-frames", [run.default(method) for method in plans.AT_FRAMES], [])
+    judge_each(run, "score", "dim", run.plan.scoring, {method: run.default(method) for method in plans.METHODS},
+               ["--fps", run.plan.scoring_fps])
 
 
 def score_tuned(run):
-    for method in run.methods_tuned():
-        options = [] if method in plans.AT_FRAMES else ["--fps", run.plan.scoring_fps]
-        score_each(run, f"-tuned-{method}", [run.tuned(method)], options)
+    tuned = {f"{method}-tuned": run.tuned(method) for method in run.methods_tuned()}
+    judge_each(run, "score", "dim", run.plan.scoring, tuned, ["--fps", run.plan.scoring_fps])
 
 
-def score_each(run, name, methods, options):
-    run.evaluate_all([(run.report("score", f"seed{seed}{name}"), [run.recording("dim", seed)], methods, options)
-                      for seed in run.plan.scoring])
+def judge_each(run, folder, light, seeds, methods, at_fps, at_frames=()):
+    """A call for each flight and method, so that one that changes leaves the others' results. Methods that make their
+    frames when intensity frames come have options of their own."""
+    run.evaluate_all([(run.report(folder, f"seed{seed}-{label}"), [run.recording(light, seed)], [path],
+                       at_frames if label.removesuffix("-tuned") in plans.AT_FRAMES else at_fps)
+                      for label, path in methods.items() for seed in seeds])
 
 
 def cost(run):
     """What the authors' defaults cost at 100 FPS, on a part of each scoring flight; few frames are judged."""
     begin_s, end_s = run.plan.cost_part
     part = ["--start", begin_s, "--end", end_s]
-    for seed in run.plan.scoring:
-        flight = [run.recording("dim", seed)]
-        at_fps, at_frames = ([run.default(name) for name in names] for names in (plans.AT_FPS, plans.AT_FRAMES))
-        run.evaluate_all([(run.report("cost", f"seed{seed}"), flight, at_fps, [*part, "--stride", 10]),
-                          (run.report("cost", f"seed{seed}-at-frames"), flight, at_frames, part)])
+    judge_each(run, "cost", "dim", run.plan.scoring, {method: run.default(method) for method in plans.METHODS},
+               [*part, "--stride", 10], part)
 
 
 def dark(run):
-    """ESI and its adaptive form at 2 lux, straight ahead, and what each block brings."""
+    """ESI and what came after it at 2 lux, straight ahead, and what each block of its adaptive form brings."""
     run.simulate("dark", run.plan.dark)
     default = json.loads(run.default("esi-adaptive").read_text(encoding="utf-8"))
-    methods = [run.default("esi"), run.tuned("esi"), run.tuned("esi-adaptive")]
-    for name, changes in plans.ABLATION.items():
+    methods = {method: run.default(method) for method in ("esi", "esi-flow")}
+    methods |= {f"{method}-tuned": run.tuned(method) for method in ("esi", "esi-adaptive", "esi-flow")}
+    for label, changes in plans.ABLATION.items():
         config = {"method": default["method"], "set": default["set"] | changes}
-        methods.append(write_json(run.out / "cells/ablation" / f"{name}.json", config))
-    methods.append(write_json(run.out / "cells/ablation/esi-clamp-3.json",
-                              {"method": "esi", "set": {"e_min": -3, "e_max": 3}}))
-    run.evaluate_all([(run.report("dark", f"seed{seed}"), [run.recording("dark", seed)], methods,
-                       ["--fps", run.plan.dark_fps]) for seed in run.plan.dark])
+        methods[label] = write_json(run.out / "cells/ablation" / f"{label}.json", config)
+    methods["esi-clamp-3"] = write_json(run.out / "cells/ablation/esi-clamp-3.json",
+                                        {"method": "esi", "set": {"e_min": -3, "e_max": 3}})
+    judge_each(run, "dark", "dark", run.plan.dark, methods, ["--fps", run.plan.dark_fps])
 
 
 def board(run):
@@ -154,4 +153,5 @@ def part_of_truth(flight, begin_s, end_s):
     return write_json(flight / f"ground_truth-{begin_s:g}s.json", truth)
 
 
-ALL = {"tune": tune, "score": score, "score-tuned": score_tuned, "cost": cost, "dark": dark, "board": board, "networks": networks, "page": lambda run: None}
+ALL = {"tune": tune, "score": score, "score-tuned": score_tuned, "cost": cost, "dark": dark, "board": board,
+       "networks": networks, "page": lambda run: None}

@@ -15,7 +15,6 @@ PAPER_PHASES = {"esi": (2626, 1252, 711, 4589), "edi": (51, 14, 8, 73), "accumul
 PAPER_COST = {"e2vid": "62 s took 428.79 s on an RTX 4070", "firenet": "62 s took 255.73 s on an RTX 4070",
               "esi": "a little slower than the plugin", "edi": "slower than ESI; 2 frames/s",
               "complementary": "slower than ESI"}
-METHODS = [*plans.AT_FPS, *plans.AT_FRAMES]
 
 
 def markdown(header, rows):
@@ -56,16 +55,20 @@ class Scores:
         return f"{statistics.mean(errors):.2f}" if errors else "-"
 
 
+def reports_of(run, folder, seeds, labels):
+    folders = [run.report(folder, f"seed{seed}-{label}") for seed in seeds for label in labels]
+    return [report for report in folders if (report / "run.json").exists()]
+
+
 def scoring(run):
-    parts = ["", "-at-frames", *(f"-tuned-{method}" for method in tuning.METHODS)]
-    folders = [run.report("score", f"seed{seed}{part}") for seed in run.plan.scoring for part in parts]
-    return Scores([folder for folder in folders if (folder / "run.json").exists()])
+    labels = [*plans.METHODS, *(f"{method}-tuned" for method in tuning.METHODS)]
+    return Scores(reports_of(run, "score", run.plan.scoring, labels))
 
 
 def counts(run):
     scores = scoring(run)
     rows = []
-    for method in METHODS:
+    for method in plans.METHODS:
         tuned = method + "-tuned"
         rows.append([method, scores.sum(method, "detected"), scores.sum(method, "frames"),
                      percent(scores.rates(method)), percent(scores.rates(tuned)), scores.corner_error(method),
@@ -80,7 +83,7 @@ def counts(run):
 def phases(run):
     scores = scoring(run)
     rows = []
-    for method in METHODS:
+    for method in plans.METHODS:
         paper = PAPER_PHASES.get(method)
         for label in (method, method + "-tuned"):
             if not scores.rates(label):
@@ -103,10 +106,9 @@ def median(rows, column):
 
 
 def costs(run):
-    seeds = [run.report("cost", f"seed{seed}{part}") for seed in run.plan.scoring for part in ("", "-at-frames")]
-    found = cost_rows(seeds)
+    found = cost_rows(reports_of(run, "cost", run.plan.scoring, plans.METHODS))
     rows = []
-    for method in METHODS:
+    for method in plans.METHODS:
         own = found[method]
         frames = "one per intensity frame" if method in plans.AT_FRAMES else "100"
         rows.append([method, f"{median(own, 'mev_s'):.1f}", f"{median(own, 'reconstruction_ms_mean'):.2f}",
@@ -138,7 +140,7 @@ def networks(run):
         all_rates = [rate for phase in PHASES[:3] for rate in scores.rates(name, phase)]
         rows.append([name, *cells, percent(all_rates), sum(scores.sum(name, "frames", phase) for phase in PHASES[:3])])
     parts = [(begin_s, end_s) for _, begin_s, end_s in run.plan.network_parts]
-    for method in ("esi", "esi-tuned", "esi-adaptive", "accumulator-tuned"):
+    for method in ("esi", "esi-tuned", "esi-adaptive", "esi-flow", "accumulator-tuned"):
         rows.append([method, *on_parts(run, method, parts)])
     return markdown(["method", *PHASES[:3], "all parts", "judged"], rows)
 
@@ -147,9 +149,8 @@ def on_parts(run, method, parts):
     rates, frames = [], 0
     for begin_s, end_s in parts:
         of_seeds = []
-        part = "-tuned-" + method.removesuffix("-tuned") if method.endswith("-tuned") else ""
         for seed in run.plan.scoring:
-            own = [int(row["detected"]) for row in rows_of(run.report("score", f"seed{seed}{part}"), "frames.csv")
+            own = [int(row["detected"]) for row in rows_of(run.report("score", f"seed{seed}-{method}"), "frames.csv")
                    if row["method"] == method and begin_s <= int(row["t_us"]) * 1e-6 < end_s]
             of_seeds.append(sum(own) / len(own))
             frames += len(own)
@@ -158,8 +159,8 @@ def on_parts(run, method, parts):
 
 
 def dark(run):
-    scores = Scores([run.report("dark", f"seed{seed}") for seed in run.plan.dark])
-    labels = ["esi", "esi-clamp-3", "esi-tuned", "esi-adaptive-tuned", *plans.ABLATION]
+    labels = ["esi", "esi-clamp-3", "esi-tuned", "esi-flow", "esi-flow-tuned", "esi-adaptive-tuned", *plans.ABLATION]
+    scores = Scores(reports_of(run, "dark", run.plan.dark, labels))
     rows = [[label, percent(scores.rates(label, "straight")), scores.corner_error(label), scores.false(label)]
             for label in labels]
     return markdown(["method", "detected, straight phase", "corner error, px", "false tags"], rows)
