@@ -25,12 +25,16 @@ ReconConfig copy_of(const ReconConfig& config) {
 /// Large enough for any method to be made, which is when options that don't go together are found.
 constexpr SensorSize kTrialSize{32, 32};
 
-void set_values(std::vector<VariableOption>& options, const SweepGrid& grid, std::size_t cell) {
-  const std::vector<std::size_t> position = grid.position(cell);
+/// `before`: the position of the cell whose values the options have; empty where they have none of a cell.
+std::vector<std::size_t> set_values(std::vector<VariableOption>& options, const SweepGrid& grid,
+                                    std::size_t cell, const std::vector<std::size_t>& before) {
+  std::vector<std::size_t> position = grid.position(cell);
   for (std::size_t i = 0; i < position.size(); ++i) {
+    if (!before.empty() && before[i] == position[i]) continue;
     const SweepAxis& axis = grid.axes()[i];
     option_named(options, axis.option).set_text(axis.values[position[i]]);
   }
+  return position;
 }
 
 /// Cells that see other frames can't be compared frame by frame, which halving lives on.
@@ -197,7 +201,7 @@ SweepGrid SweepConfig::grid() const {
 ReconConfig SweepConfig::cell_config(const SweepGrid& grid, std::size_t cell) const {
   ReconConfig config = copy_of(base);
   std::vector<VariableOption> options = variable_options(config);
-  set_values(options, grid, cell);
+  set_values(options, grid, cell, {});
   return config;
 }
 
@@ -216,7 +220,7 @@ EvalConfig SweepConfig::eval_config(const SweepGrid& grid, const std::vector<std
   return config;
 }
 
-void SweepConfig::check() const {
+void SweepConfig::check(const std::function<bool()>& goes_on) const {
   search.check();
   detector.check();
   base.frames.check();
@@ -225,8 +229,9 @@ void SweepConfig::check() const {
   ReconConfig config = copy_of(base);
   std::vector<VariableOption> options = variable_options(config);
   const bool needs_files = config.method_options().find("model") != nullptr;
-  for (std::size_t cell = 0; cell < all.cells(); ++cell) {
-    set_values(options, all, cell);
+  std::vector<std::size_t> position;
+  for (std::size_t cell = 0; cell < all.cells() && goes_on(); ++cell) {
+    position = set_values(options, all, cell, position);
     config.frames.check();
     config.steps.check();
     if (!needs_files) config.method_config().create(kTrialSize);

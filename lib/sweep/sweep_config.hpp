@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -55,8 +56,9 @@ class SweepConfig {
   ReconConfig cell_config(const SweepGrid& grid, std::size_t cell) const;
   /// Some cells as methods that are evaluated together; each is called by its number.
   EvalConfig eval_config(const SweepGrid& grid, const std::vector<std::size_t>& cells) const;
-  /// Throws a usage Error on options that contradict one another, in any cell.
-  void check() const;
+  /// Throws a usage Error on options that contradict one another, in any cell. A million cells take seconds:
+  /// once goes_on() says no, the rest is left out.
+  void check(const std::function<bool()>& goes_on = [] { return true; }) const;
 
   std::vector<OptionGroup> groups();
 

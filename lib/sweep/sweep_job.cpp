@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 
 #include "esi/core/error.hpp"
 #include "esi/core/json_text.hpp"
@@ -33,8 +34,8 @@ void refuse_unknown_objective(const SweepConfig& config, const SweepHeader& head
   throw usage_error(fmt::format("option objective: no ground truth has a phase '{}'", objective));
 }
 
-void check_job(const SweepJob& job, const SweepConfig& config) {
-  config.check();
+void check_job(const SweepJob& job, const SweepConfig& config, const std::function<bool()>& goes_on) {
+  config.check(goes_on);
   if (config.inputs.empty()) throw usage_error("give a recording");
   const bool is_halving = config.search.search == SearchOptions::Search::halving;
   if (is_halving && !job.shard.is_all()) {
@@ -64,7 +65,8 @@ class Sweeper {
       : job_(job), config_(config), observer_(observer) {}
 
   SweepReport run() {
-    check_job(job_, config_);
+    check_job(job_, config_, [this] { return tell({}); });
+    if (is_stopping_) return stopped();
     header_ = survey(config_, runs_, [this](const Progress&) { return tell({}); });
     if (is_stopping_) return stopped();
     refuse_unknown_objective(config_, header_);
