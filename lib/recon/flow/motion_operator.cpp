@@ -9,35 +9,31 @@
 namespace esi {
 namespace {
 
-ESI_SIMD void flux_row(int corners, const float* __restrict upper, const float* __restrict lower,
-                       const float* __restrict dd, const float* __restrict de, const float* __restrict ee,
-                       float* __restrict d, float* __restrict e) {
-  for (int x = 0; x < corners; ++x) {
-    const float along_d = lower[x + 1] - upper[x];
-    const float along_e = upper[x + 1] - lower[x];
-    d[x] = dd[x] * along_d + de[x] * along_e;
-    e[x] = de[x] * along_d + ee[x] * along_e;
-  }
-}
-
-/// For pixels that have a left and a right neighbour. Outside the image a neighbour is the pixel itself.
-ESI_SIMD void divergence_row(int begin, int end, const float* __restrict above, const float* __restrict here,
-                             const float* __restrict below, const float* __restrict above_d,
-                             const float* __restrict above_e, const float* __restrict below_d,
-                             const float* __restrict below_e, float eps, float mu, float* __restrict out) {
+/// Equation (6) for pixels that have a left and a right neighbour; outside the image, one above or below is
+/// the pixel itself. A's part is that of equation (7)'s derivative, sorted by neighbours.
+ESI_SIMD void product_row(int begin, int end, const float* __restrict above, const float* __restrict here,
+                          const float* __restrict below, const float* __restrict above_dd,
+                          const float* __restrict above_de, const float* __restrict above_ee,
+                          const float* __restrict below_dd, const float* __restrict below_de,
+                          const float* __restrict below_ee, float eps, float mu, float* __restrict out) {
   for (int x = begin; x < end; ++x) {
-    const float divergence = (below_d[x + 1] - above_d[x]) + (above_e[x + 1] - below_e[x]);
-    const float laplacian = (here[x - 1] + here[x + 1]) + (above[x] + below[x]) - 4.0F * here[x];
-    out[x] = mu * here[x] - divergence - eps * laplacian;
+    const float left = here[x - 1];
+    const float right = here[x + 1];
+    const float along_d = below_dd[x] * (below[x + 1] - here[x]) + above_dd[x - 1] * (above[x - 1] - here[x]);
+    const float along_e = above_ee[x] * (above[x + 1] - here[x]) + below_ee[x - 1] * (below[x - 1] - here[x]);
+    const float mixed = (below_de[x] * (right - below[x]) + above_de[x - 1] * (left - above[x])) +
+                        (above_de[x] * (right - above[x]) + below_de[x - 1] * (left - below[x]));
+    const float laplacian = (left + right) + (above[x] + below[x]) - 4.0F * here[x];
+    out[x] = mu * here[x] - ((along_d + along_e) + mixed) - eps * laplacian;
   }
 }
 
-ESI_SIMD void diagonal_row(int corners, const float* __restrict dd, const float* __restrict ee,
-                           float* __restrict upper, float* __restrict lower) {
-  for (int x = 0; x < corners; ++x) upper[x] += dd[x];
-  for (int x = 0; x < corners; ++x) upper[x + 1] += ee[x];
-  for (int x = 0; x < corners; ++x) lower[x] += ee[x];
-  for (int x = 0; x < corners; ++x) lower[x + 1] += dd[x];
+/// For pixels that have a left and a right neighbour; `own` is what isn't of A.
+ESI_SIMD void inverse_diagonal_between(int begin, int end, const float* __restrict above_dd,
+                                       const float* __restrict above_ee, const float* __restrict below_dd,
+                                       const float* __restrict below_ee, float own, float* __restrict out) {
+  for (int x = begin; x < end; ++x)
+    out[x] = 1.0F / (own + ((below_dd[x] + above_dd[x - 1]) + (above_ee[x] + below_ee[x - 1])));
 }
 
 /// Corner X of the half resolution lies on corner 2 X + 1; the mean is of 3x3 around it, [1 2 1]/4 each way.
@@ -62,59 +58,53 @@ void halve_corners(const cv::Mat1f& fine, cv::Mat1f& coarse) {
 
 }  // namespace
 
-MotionOperator::MotionOperator(cv::Size size) : dd(size, 0.0F), de(size, 0.0F), ee(size, 0.0F) {
-  const auto entries = static_cast<std::size_t>(size.width) + 1;
-  for (auto* row : {&above_d_, &above_e_, &below_d_, &below_e_}) row->resize(entries);
-}
+MotionOperator::MotionOperator(cv::Size size) : dd(size, 0.0F), de(size, 0.0F), ee(size, 0.0F) {}
 
-void MotionOperator::flux_of(const cv::Mat1f& in, int y, std::vector<float>& d, std::vector<float>& e) const {
-  if (y + 1 >= in.rows) {
-    std::fill(d.begin(), d.end(), 0.0F);
-    std::fill(e.begin(), e.end(), 0.0F);
-    return;
-  }
-  flux_row(in.cols - 1, in[y], in[y + 1], dd[y], de[y], ee[y], d.data() + 1, e.data() + 1);
-}
-
-double MotionOperator::apply(const cv::Mat1f& in, cv::Mat1f& out) {
+double MotionOperator::apply(const cv::Mat1f& in, cv::Mat1f& out) const {
   out.create(in.size());
-  const int last = in.cols - 1;
-  std::fill(above_d_.begin(), above_d_.end(), 0.0F);
-  std::fill(above_e_.begin(), above_e_.end(), 0.0F);
   double product = 0.0;
   for (int y = 0; y < in.rows; ++y) {
-    flux_of(in, y, below_d_, below_e_);
-    const float* const here = in[y];
-    const float* const above = in[std::max(y - 1, 0)];
-    const float* const below = in[std::min(y + 1, in.rows - 1)];
-    divergence_row(1, last, above, here, below, above_d_.data(), above_e_.data(), below_d_.data(),
-                   below_e_.data(), eps, mu, out[y]);
-    for (const int x : {0, last}) {
-      const auto i = static_cast<std::size_t>(x);
-      const float divergence = (below_d_[i + 1] - above_d_[i]) + (above_e_[i + 1] - below_e_[i]);
-      const float beside = here[std::max(x - 1, 0)] + here[std::min(x + 1, last)];
-      out(y, x) = mu * here[x] - divergence - eps * (beside + above[x] + below[x] - 4.0F * here[x]);
-    }
-    product += dot(here, out[y], in.cols);
-    std::swap(above_d_, below_d_);
-    std::swap(above_e_, below_e_);
+    apply_row(in, y, out[y]);
+    product += dot(in[y], out[y], in.cols);
   }
   return product;
 }
 
-void MotionOperator::invert_diagonal(cv::Mat1f& inverse) const {
-  inverse.create(size());
-  const int last_x = inverse.cols - 1;
-  const int last_y = inverse.rows - 1;
-  for (int y = 0; y <= last_y; ++y) {
-    const int vertical = (y > 0 ? 1 : 0) + (y < last_y ? 1 : 0);
-    for (int x = 0; x <= last_x; ++x) {
-      const int neighbours = vertical + (x > 0 ? 1 : 0) + (x < last_x ? 1 : 0);
-      inverse(y, x) = mu + eps * static_cast<float>(neighbours);
-    }
+void MotionOperator::apply_row(const cv::Mat1f& in, int y, float* out) const {
+  const int last = dd.cols - 1;
+  const float* const here = in[y];
+  const float* const above = in[std::max(y - 1, 0)];
+  const float* const below = in[std::min(y + 1, dd.rows - 1)];
+  const int corner = corner_above(y);
+  product_row(1, last, above, here, below, dd[corner], de[corner], ee[corner], dd[y], de[y], ee[y], eps, mu,
+              out);
+  // The first and the last pixel are their own neighbours outside, where there are no corners.
+  const auto border = [&](int x, float beside, float from_corners) {
+    const float laplacian = beside + above[x] + below[x] - 3.0F * here[x];
+    out[x] = mu * here[x] - from_corners - eps * laplacian;
+  };
+  if (last == 0) {
+    border(0, here[0], 0.0F);
+    return;
   }
-  for (int y = 0; y < last_y; ++y) diagonal_row(last_x, dd[y], ee[y], inverse[y], inverse[y + 1]);
-  for (float& value : inverse) value = 1.0F / value;
+  border(0, here[1],
+         (dd(y, 0) * (below[1] - here[0]) + ee(corner, 0) * (above[1] - here[0])) +
+             (de(y, 0) * (here[1] - below[0]) + de(corner, 0) * (here[1] - above[0])));
+  const int x = last - 1;
+  border(last, here[x],
+         (dd(corner, x) * (above[x] - here[last]) + ee(y, x) * (below[x] - here[last])) +
+             (de(corner, x) * (here[x] - above[last]) + de(y, x) * (here[x] - below[last])));
+}
+
+void MotionOperator::inverse_diagonal_row(int y, float* out) const {
+  const int above = corner_above(y);
+  const int last = dd.cols - 1;
+  const int vertical = (y > 0 ? 1 : 0) + (y + 1 < dd.rows ? 1 : 0);
+  const auto own = [&](int neighbours) { return mu + eps * static_cast<float>(neighbours); };
+  inverse_diagonal_between(1, last, dd[above], ee[above], dd[y], ee[y], own(vertical + 2), out);
+  const int beside = last > 0 ? 1 : 0;
+  out[0] = 1.0F / (own(vertical + beside) + (dd(y, 0) + ee(above, 0)));
+  if (last > 0) out[last] = 1.0F / (own(vertical + 1) + (dd(above, last - 1) + ee(y, last - 1)));
 }
 
 void MotionOperator::coarsen(MotionOperator& coarse) const {

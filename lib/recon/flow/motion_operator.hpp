@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
-#include <vector>
 
 namespace esi {
 
@@ -17,11 +16,14 @@ class MotionOperator {
 
   cv::Size size() const { return dd.size(); }
 
-  /// out = M in; returns in . M in. `in` and `out` are continuous, of this size, and not the same.
-  double apply(const cv::Mat1f& in, cv::Mat1f& out);
+  /// out = M in; returns in . M in. `in` and `out` are of this size, and not the same.
+  double apply(const cv::Mat1f& in, cv::Mat1f& out) const;
 
-  /// 1 / the diagonal of M.
-  void invert_diagonal(cv::Mat1f& inverse) const;
+  /// Row y of M in, which depends on the rows y - 1 to y + 1 of `in`.
+  void apply_row(const cv::Mat1f& in, int y, float* out) const;
+
+  /// Row y of 1 / the diagonal of M.
+  void inverse_diagonal_row(int y, float* out) const;
 
   /// The same problem on half the resolution. In two dimensions the energy of a gradient doesn't depend on
   /// the pixels' size, that of mu does.
@@ -32,10 +34,9 @@ class MotionOperator {
   float mu = 0.0F;
 
  private:
-  /// Flux through the corners below row y, along the diagonals; entry x + 1 is corner x.
-  void flux_of(const cv::Mat1f& in, int y, std::vector<float>& d, std::vector<float>& e) const;
-
-  std::vector<float> above_d_, above_e_, below_d_, below_e_;
+  /// The row of corners above pixels y. There is none above the first; the last one, which holds 0, does for
+  /// it.
+  int corner_above(int y) const { return y > 0 ? y - 1 : dd.rows - 1; }
 };
 
 }  // namespace esi

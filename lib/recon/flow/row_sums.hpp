@@ -1,13 +1,17 @@
 #pragma once
 
+#include "esi/recon/flow/padded_plane.hpp"
+
 namespace esi {
+
+/// Of sums side by side, which are vectorised without reordering.
+inline double sum_of(const float (&sums)[kVectorFloats]) {
+  double sum = 0.0;
+  for (const float value : sums) sum += static_cast<double>(value);
+  return sum;
+}
 
 /// a . b over `count` entries, always added in the same order.
 double dot(const float* a, const float* b, int count);
-
-/// A step of conjugate gradients: solution += step direction, residual -= step product. Returns the new
-/// residual . inverse_diagonal residual.
-double step_along(int count, float step, const float* direction, const float* product,
-                  const float* inverse_diagonal, float* solution, float* residual);
 
 }  // namespace esi

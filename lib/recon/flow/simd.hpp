@@ -4,7 +4,7 @@
 // the same bytes: nothing is contracted or reordered (see cmake/Compiler.cmake).
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define ESI_SIMD __attribute__((target_clones("default", "avx2", "avx512f")))
+#define ESI_SIMD __attribute__((target_clones("default", "avx2")))
 #else
 #define ESI_SIMD
 #endif

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace esi {
+
+/// Twice the resolution, bilinearly; outside, the border goes on.
+class DoubleSize {
+ public:
+  explicit DoubleSize(const cv::Mat1f& coarse);
+
+  /// Row y of the result into `out`, of at least `cols` (twice the coarse columns, or one less).
+  void row(int y, int cols, float* out);
+
+ private:
+  const cv::Mat1f& coarse_;
+  std::vector<float> line_;  ///< between two rows; the first and the last entry are there twice
+  std::vector<float> doubled_;
+};
+
+}  // namespace esi

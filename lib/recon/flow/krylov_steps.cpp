@@ -1,0 +1,139 @@
+#include "esi/recon/flow/krylov_steps.hpp"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+#include "esi/recon/flow/padded_plane.hpp"
+#include "esi/recon/flow/row_sums.hpp"
+#include "esi/recon/flow/simd.hpp"
+
+namespace esi {
+namespace {
+
+/// out = D^-1 r; returns out . r
+ESI_SIMD double first_row(int padded_cols, const float* __restrict inverse, const float* __restrict residual,
+                          float* __restrict out) {
+  float sums[kVectorFloats] = {};
+  for (int i = 0; i < padded_cols; i += kVectorFloats) {
+    for (int k = 0; k < kVectorFloats; ++k) {
+      out[i + k] = inverse[i + k] * residual[i + k];
+      sums[k] += out[i + k] * residual[i + k];
+    }
+  }
+  return sum_of(sums);
+}
+
+/// next = turn X z - keep before, where `product` is M z. Adds to sums z . M z, next . M z and next . r.
+ESI_SIMD void next_row(int padded_cols, float turn, float keep, const float* __restrict inverse,
+                       const float* __restrict residual, const float* __restrict product,
+                       const float* __restrict before, const float* __restrict z, float* __restrict next,
+                       double* __restrict sums) {
+  float itself[kVectorFloats] = {};
+  float crossed[kVectorFloats] = {};
+  float right[kVectorFloats] = {};
+  for (int i = 0; i < padded_cols; i += kVectorFloats) {
+    for (int k = 0; k < kVectorFloats; ++k) {
+      const int x = i + k;
+      const float value = turn * (0.5F * inverse[x] * product[x] - z[x]) - keep * before[x];
+      next[x] = value;
+      itself[k] += product[x] * z[x];
+      crossed[k] += product[x] * value;
+      right[k] += residual[x] * value;
+    }
+  }
+  sums[0] += sum_of(itself);
+  sums[1] += sum_of(crossed);
+  sums[2] += sum_of(right);
+}
+
+/// sum += factors . rows
+ESI_SIMD void add_combination(int cols, int count, const float* __restrict factors,
+                              const float* const* __restrict rows, float* __restrict sum) {
+  int i = 0;
+  for (; i + kVectorFloats <= cols; i += kVectorFloats) {
+    float value[kVectorFloats];
+    for (int k = 0; k < kVectorFloats; ++k) value[k] = sum[i + k];
+    for (int row = 0; row < count; ++row) {
+      for (int k = 0; k < kVectorFloats; ++k) value[k] += factors[row] * rows[row][i + k];
+    }
+    for (int k = 0; k < kVectorFloats; ++k) sum[i + k] = value[k];
+  }
+  for (; i < cols; ++i) {
+    for (int row = 0; row < count; ++row) sum[i] += factors[row] * rows[row][i];
+  }
+}
+
+void add_combination(const std::vector<float>& factors, const std::vector<cv::Mat1f>& images,
+                     cv::Mat1f& sum) {
+  std::vector<const float*> rows(factors.size());
+  for (int y = 0; y < sum.rows; ++y) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = images[i][y];
+    add_combination(sum.cols, static_cast<int>(rows.size()), factors.data(), rows.data(), sum[y]);
+  }
+}
+
+}  // namespace
+
+KrylovSteps::KrylovSteps(cv::Size size, int steps) : steps_(steps) {
+  const int most = std::min(steps, kMostAtOnce);
+  for (int k = 0; k < most; ++k) {
+    basis_.push_back(padded_plane(size));
+  }
+  inverse_ = padded_plane({size.width, most + 1});
+  product_ = padded_plane({size.width, 1});
+}
+
+void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, cv::Mat1f& residual) {
+  for (int left = steps_; left > 0; left -= kMostAtOnce) {
+    make_basis(normal, residual, std::min(left, kMostAtOnce));
+    const std::vector<float> factors = least_energy_factors(products_);
+    if (left <= kMostAtOnce) {
+      add_combination(factors, basis_, solution);
+      return;
+    }
+    cv::Mat1f change(solution.size(), 0.0F);
+    add_combination(factors, basis_, change);
+    cv::Mat1f product;
+    normal.apply(change, product);
+    solution += change;
+    residual -= product;
+  }
+}
+
+void KrylovSteps::make_basis(const MotionOperator& normal, const cv::Mat1f& residual, int count) {
+  products_.assign(static_cast<std::size_t>(count), {});
+  for (int begin = 0; begin < residual.rows + count; ++begin) {
+    // z_k follows a row behind z_(k-1).
+    for (int k = 0; k <= count; ++k) {
+      const int y = begin - k;
+      if (y >= 0 && y < residual.rows) make_row(normal, residual, k, y);
+    }
+  }
+}
+
+void KrylovSteps::make_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y) {
+  const int cols = padded(residual.cols);
+  const auto own = static_cast<std::size_t>(k);
+  if (k == 0) {
+    normal.inverse_diagonal_row(y, inverse_row(y));
+    products_[0].residual += first_row(cols, inverse_row(y), residual[y], basis_[0][y]);
+    return;
+  }
+  const cv::Mat1f& last = basis_[own - 1];
+  KrylovProducts& products = products_[own - 1];
+  float* const product = product_[0];
+  normal.apply_row(last, y, product);
+  if (own == products_.size()) {
+    products.own += dot(product, last[y], cols);
+    return;
+  }
+  const cv::Mat1f& before = basis_[own - std::min(own, std::size_t{2})];
+  double sums[3] = {};
+  next_row(cols, k == 1 ? 1.0F : 2.0F, k == 1 ? 0.0F : 1.0F, inverse_row(y), residual[y], product, before[y],
+           last[y], basis_[own][y], sums);
+  products.own += sums[0];
+  products.next += sums[1];
+  products_[own].residual += sums[2];
+}
+
+}  // namespace esi
