@@ -20,7 +20,9 @@ class BilinearRow {
 
  private:
   cv::Size size_;
-  std::vector<int> index_;            ///< of the upper left of the four pixels around
+  std::vector<int> shift_;     ///< from a pixel to the upper left of the four around the place
+  std::vector<int> run_ends_;  ///< of neighbours that have the same shift: motion is smooth, so they are long
+  std::size_t runs_ = 0;
   std::vector<float> right_, below_;  ///< shares of the neighbours
 };
 

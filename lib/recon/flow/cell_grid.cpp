@@ -10,11 +10,13 @@ namespace {
 
 int cells_over(int pixels, double cell_px) { return static_cast<int>(std::ceil(pixels / cell_px)); }
 
-ESI_SIMD void interpolate(std::size_t cols, const float* __restrict line, const int* __restrict left,
+/// Between two neighbours on a line of cells, for columns [begins[i], begins[i + 1]).
+ESI_SIMD void interpolate(std::size_t stretches, const float* __restrict line, const int* __restrict begins,
                           const float* __restrict share, float* __restrict out) {
-  for (std::size_t x = 0; x < cols; ++x) {
-    const float* const at = line + left[x];
-    out[x] = at[0] + share[x] * (at[1] - at[0]);
+  for (std::size_t i = 0; i < stretches; ++i) {
+    const float left = line[i];
+    const float rise = line[i + 1] - left;
+    for (int x = begins[i]; x < begins[i + 1]; ++x) out[x] = left + share[x] * rise;
   }
 }
 
@@ -27,9 +29,11 @@ CellGrid::CellGrid(cv::Size image, double cell_px)
       line_(static_cast<std::size_t>(cols_) + 2) {
   for (int x = 0; x < image.width; ++x) {
     const double at = (x + 0.5) / cell_px + 0.5;
-    left_.push_back(std::min(static_cast<int>(at), cols_));
-    share_.push_back(static_cast<float>(at - left_.back()));
+    const int left = std::min(static_cast<int>(at), cols_);
+    begins_.resize(static_cast<std::size_t>(left) + 1, x);
+    share_.push_back(static_cast<float>(at - left));
   }
+  begins_.resize(line_.size(), image.width);
 }
 
 void CellGrid::interpolate_row(const cv::Mat1f& cells, int y, float scale, float* out) {
@@ -43,7 +47,7 @@ void CellGrid::interpolate_row(const cv::Mat1f& cells, int y, float scale, float
   }
   line_.front() = line_[1];
   line_.back() = line_[static_cast<std::size_t>(cols_)];
-  interpolate(left_.size(), line_.data(), left_.data(), share_.data(), out);
+  interpolate(begins_.size() - 1, line_.data(), begins_.data(), share_.data(), out);
 }
 
 }  // namespace esi

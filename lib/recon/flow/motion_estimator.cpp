@@ -37,17 +37,33 @@ ESI_SIMD void add_terms(int cols, const float* __restrict above, const float* __
   }
 }
 
-/// [1 2 1] / 4 along both axes, the border going on outside.
-void smooth(cv::Mat1f& cells) {
-  static const cv::Matx13f kKernel(0.25F, 0.5F, 0.25F);
-  cv::sepFilter2D(cells, cells, -1, kKernel, kKernel, cv::Point(-1, -1), 0.0, cv::BORDER_REPLICATE);
+/// One of the neighbours of cell (x, y), the border going on outside.
+float beside(const cv::Mat1f& cells, int y, int x) {
+  return cells(std::clamp(y, 0, cells.rows - 1), std::clamp(x, 0, cells.cols - 1));
 }
 
-/// The mean of the four neighbours, the border going on outside.
+/// [1 2 1] / 4 along both axes.
+void smooth(cv::Mat1f& cells) {
+  cv::Mat1f along_x(cells.size());
+  for (int y = 0; y < cells.rows; ++y) {
+    for (int x = 0; x < cells.cols; ++x)
+      along_x(y, x) = 0.25F * (beside(cells, y, x - 1) + beside(cells, y, x + 1)) + 0.5F * cells(y, x);
+  }
+  for (int y = 0; y < cells.rows; ++y) {
+    for (int x = 0; x < cells.cols; ++x)
+      cells(y, x) = 0.25F * (beside(along_x, y - 1, x) + beside(along_x, y + 1, x)) + 0.5F * along_x(y, x);
+  }
+}
+
+/// The mean of the four neighbours.
 cv::Mat1f neighbours_of(const cv::Mat1f& cells) {
-  static const cv::Matx33f kKernel(0, 0.25F, 0, 0.25F, 0, 0.25F, 0, 0.25F, 0);
-  cv::Mat1f mean;
-  cv::filter2D(cells, mean, -1, kKernel, cv::Point(-1, -1), 0.0, cv::BORDER_REPLICATE);
+  cv::Mat1f mean(cells.size());
+  for (int y = 0; y < cells.rows; ++y) {
+    for (int x = 0; x < cells.cols; ++x) {
+      mean(y, x) = 0.25F * ((beside(cells, y - 1, x) + beside(cells, y + 1, x)) +
+                            (beside(cells, y, x - 1) + beside(cells, y, x + 1)));
+    }
+  }
   return mean;
 }
 
@@ -63,19 +79,18 @@ MotionEstimator::MotionEstimator(cv::Size full, const Options& options)
     : options_(options),
       half_((full.width + 1) / 2, (full.height + 1) / 2),
       cells_(half_, options.cell_px / static_cast<double>(kHalf)),
-      lookup_(half_),
-      mean_(half_),
-      difference_(half_) {
+      lookup_(half_) {
   const auto cols = static_cast<std::size_t>(half_.width);
   for (auto* row : {&vx_, &vy_, &moved_}) row->resize(cols);
   for (auto& column : columns_) column.resize(cols);
   for (cv::Mat1f& sum : sums_) sum.create(cells_.size());
+  for (int x = 0; x < half_.width; ++x) column_cells_.push_back(cells_.cell_of(x));
 }
 
 void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& field) {
   for (int round = 0; round < options_.rounds; ++round) {
     for (cv::Mat1f& sum : sums_) sum.setTo(0.0F);
-    for (const MovedPair& pair : pairs) add(pair, field);
+    add_terms_of(pairs, field);
     for (cv::Mat1f& sum : sums_) {
       smooth(sum);
       smooth(sum);
@@ -86,37 +101,50 @@ void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& fie
   take_median(field.y);
 }
 
-void MotionEstimator::compensate(const MovedPair& pair, const MotionField& field) {
+void MotionEstimator::add_terms_of(std::span<const MovedPair> pairs, const MotionField& field) {
+  compared_.resize(pairs.size());
+  for (Compared& pair : compared_) {
+    pair.mean.create(3, half_.width);
+    pair.difference.create(3, half_.width);
+  }
   for (int y = 0; y < half_.height; ++y) {
-    cells_.interpolate_row(field.x, y, pair.windows / kHalf, vx_.data());
-    cells_.interpolate_row(field.y, y, pair.windows / kHalf, vy_.data());
-    lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
+    compensate_row(pairs, field, y);
+    const int middle = y - 1;
+    if (middle < 1) continue;
+    for (std::size_t i = 0; i < pairs.size(); ++i) add_row(pairs[i], compared_[i], middle);
+    if (cells_.cell_of(middle + 1) != cells_.cell_of(middle)) end_cells(cells_.cell_of(middle));
+  }
+  if (half_.height > 2) end_cells(cells_.cell_of(half_.height - 2));
+}
+
+void MotionEstimator::compensate_row(std::span<const MovedPair> pairs, const MotionField& field, int y) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const MovedPair& pair = pairs[i];
+    if (i == 0 || pair.windows != pairs[i - 1].windows) {
+      cells_.interpolate_row(field.x, y, pair.windows / kHalf, vx_.data());
+      cells_.interpolate_row(field.y, y, pair.windows / kHalf, vy_.data());
+      lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
+    }
     lookup_.sample(pair.before, moved_.data());
-    mean_and_difference(half_.width, moved_.data(), pair.after[y], mean_[y], difference_[y]);
+    mean_and_difference(half_.width, moved_.data(), pair.after[y], compared_[i].mean[y % 3],
+                        compared_[i].difference[y % 3]);
   }
 }
 
-void MotionEstimator::add(const MovedPair& pair, const MotionField& field) {
-  compensate(pair, field);
+void MotionEstimator::add_row(const MovedPair& pair, const Compared& compared, int y) {
   // A step of 1 px a window moves the pair by so many pixels; half of it is the central difference's.
   const float reach = 0.5F * pair.windows / kHalf;
   auto& [xx, xy, yy, rx, ry] = columns_;
-  for (auto& column : columns_) std::fill(column.begin(), column.end(), 0.0F);
-  for (int y = 0; y < half_.height; ++y) {
-    const bool is_inside = y > 0 && y < half_.height - 1;
-    if (is_inside) {
-      add_terms(half_.width, mean_[y - 1], mean_[y], mean_[y + 1], difference_[y],
-                pair.weight * reach * reach, -pair.weight * reach, xx.data(), xy.data(), yy.data(), rx.data(),
-                ry.data());
-    }
-    const int cell_row = cells_.cell_of(y);
-    if (y + 1 < half_.height && cells_.cell_of(y + 1) == cell_row) continue;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      float* const sums = sums_[i][cell_row];
-      for (int x = 0; x < half_.width; ++x)
-        sums[cells_.cell_of(x)] += columns_[i][static_cast<std::size_t>(x)];
-      std::fill(columns_[i].begin(), columns_[i].end(), 0.0F);
-    }
+  add_terms(half_.width, compared.mean[(y - 1) % 3], compared.mean[y % 3], compared.mean[(y + 1) % 3],
+            compared.difference[y % 3], pair.weight * reach * reach, -pair.weight * reach, xx.data(),
+            xy.data(), yy.data(), rx.data(), ry.data());
+}
+
+void MotionEstimator::end_cells(int cell_row) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    float* const sums = sums_[i][cell_row];
+    for (std::size_t x = 0; x < columns_[i].size(); ++x) sums[column_cells_[x]] += columns_[i][x];
+    std::fill(columns_[i].begin(), columns_[i].end(), 0.0F);
   }
 }
 

@@ -49,17 +49,25 @@ class MotionEstimator {
   /// Sums over cells: xx, xy, yy of T, then x and y of rhs.
   using Sums = std::array<cv::Mat1f, 5>;
 
-  void add(const MovedPair& pair, const MotionField& field);
-  void compensate(const MovedPair& pair, const MotionField& field);
+  /// The latest three rows of a pair after compensation, row y at y % 3.
+  struct Compared {
+    cv::Mat1f mean, difference;
+  };
+
+  void add_terms_of(std::span<const MovedPair> pairs, const MotionField& field);
+  void compensate_row(std::span<const MovedPair> pairs, const MotionField& field, int y);
+  void add_row(const MovedPair& pair, const Compared& compared, int y);
+  void end_cells(int cell_row);
   void step(MotionField& field);
 
   Options options_;
   cv::Size half_;
   CellGrid cells_;
   BilinearRow lookup_;
-  cv::Mat1f mean_, difference_;
+  std::vector<Compared> compared_;
   Sums sums_;
   std::array<std::vector<float>, 5> columns_;  ///< the sums of one row of cells, by pixel column
+  std::vector<int> column_cells_;              ///< the cell of each pixel column
   std::vector<float> vx_, vy_, moved_;
 };
 
