@@ -78,8 +78,8 @@ void BilinearRow::sample(const cv::Mat1f& image, float* out) const {
   // A single column or row is its own neighbour.
   const int to_right = size_.width > 1 ? 1 : 0;
   const int to_below = size_.height > 1 ? size_.width : 0;
-  sample_runs(runs_, run_ends_.data(), shift_.data(), image[0], to_right, to_below, right_.data(), below_.data(),
-              out);
+  sample_runs(runs_, run_ends_.data(), shift_.data(), image[0], to_right, to_below, right_.data(),
+              below_.data(), out);
 }
 
 }  // namespace esi

@@ -24,13 +24,12 @@ ESI_SIMD void accumulate(int corners, const float* __restrict vx, const float* _
   }
 }
 
-/// Adds what the corners below these pixels, or those above the next row's, give to minus the divergence.
-ESI_SIMD void spread(int corners, const float* __restrict a_d, const float* __restrict a_e,
-                     float* __restrict upper, float* __restrict lower) {
-  for (int x = 0; x < corners; ++x) upper[x] -= a_d[x];
-  for (int x = 0; x < corners; ++x) upper[x + 1] += a_e[x];
-  for (int x = 0; x < corners; ++x) lower[x] -= a_e[x];
-  for (int x = 0; x < corners; ++x) lower[x + 1] += a_d[x];
+/// Minus the divergence for pixels that have a corner on each side. D grows to the lower right, E to the
+/// upper.
+ESI_SIMD void minus_divergence(int begin, int end, const float* __restrict above_d,
+                               const float* __restrict above_e, const float* __restrict below_d,
+                               const float* __restrict below_e, float* __restrict out) {
+  for (int x = begin; x < end; ++x) out[x] = (above_d[x - 1] - below_d[x]) + (below_e[x - 1] - above_e[x]);
 }
 
 /// There is a corner less than pixels; where corners are looked up beyond the last ones, those go on.
@@ -97,8 +96,18 @@ void BrightnessModel::move_image(const MotionField& field, CellGrid& cells, floa
 
 void BrightnessModel::right_hand_side(cv::Mat1f& rhs) const {
   rhs.create(a_d_.size());
-  rhs.setTo(0.0F);
-  for (int y = 0; y + 1 < rhs.rows; ++y) spread(rhs.cols - 1, a_d_[y], a_e_[y], rhs[y], rhs[y + 1]);
+  // Outside there are no corners.
+  const cv::Mat1f none(1, rhs.cols, 0.0F);
+  const int last = rhs.cols - 1;
+  for (int y = 0; y < rhs.rows; ++y) {
+    const float* const above_d = y > 0 ? a_d_[y - 1] : none[0];
+    const float* const above_e = y > 0 ? a_e_[y - 1] : none[0];
+    const float* const below_d = y + 1 < rhs.rows ? a_d_[y] : none[0];
+    const float* const below_e = y + 1 < rhs.rows ? a_e_[y] : none[0];
+    minus_divergence(1, last, above_d, above_e, below_d, below_e, rhs[y]);
+    rhs(y, last) = last > 0 ? above_d[last - 1] + below_e[last - 1] : 0.0F;
+    rhs(y, 0) = last > 0 ? -below_d[0] - above_e[0] : 0.0F;
+  }
 }
 
 }  // namespace esi

@@ -10,13 +10,12 @@ class DoubleSize {
  public:
   explicit DoubleSize(const cv::Mat1f& coarse);
 
-  /// Row y of the result into `out`, of at least `cols` (twice the coarse columns, or one less).
+  /// Row y of the result. `cols` is twice the coarse columns, or one less.
   void row(int y, int cols, float* out);
 
  private:
   const cv::Mat1f& coarse_;
   std::vector<float> line_;  ///< between two rows; the first and the last entry are there twice
-  std::vector<float> doubled_;
 };
 
 }  // namespace esi

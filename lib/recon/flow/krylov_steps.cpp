@@ -10,6 +10,12 @@
 namespace esi {
 namespace {
 
+/// residual -= length product
+ESI_SIMD void take_out(int padded_cols, float length, const float* __restrict product,
+                       float* __restrict residual) {
+  for (int i = 0; i < padded_cols; ++i) residual[i] -= length * product[i];
+}
+
 /// out = D^-1 r; returns out . r
 ESI_SIMD double first_row(int padded_cols, const float* __restrict inverse, const float* __restrict residual,
                           float* __restrict out) {
@@ -63,62 +69,65 @@ ESI_SIMD void add_combination(int cols, int count, const float* __restrict facto
   }
 }
 
-void add_combination(const std::vector<float>& factors, const std::vector<cv::Mat1f>& images,
-                     cv::Mat1f& sum) {
-  std::vector<const float*> rows(factors.size());
-  for (int y = 0; y < sum.rows; ++y) {
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = images[i][y];
-    add_combination(sum.cols, static_cast<int>(rows.size()), factors.data(), rows.data(), sum[y]);
-  }
-}
-
 }  // namespace
 
 KrylovSteps::KrylovSteps(cv::Size size, int steps) : steps_(steps) {
   const int most = std::min(steps, kMostAtOnce);
-  for (int k = 0; k < most; ++k) {
-    basis_.push_back(padded_plane(size));
-  }
+  for (int k = 0; k < most; ++k) basis_.push_back(padded_plane(size));
   inverse_ = padded_plane({size.width, most + 1});
   product_ = padded_plane({size.width, 1});
 }
 
-void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, cv::Mat1f& residual) {
-  for (int left = steps_; left > 0; left -= kMostAtOnce) {
-    make_basis(normal, residual, std::min(left, kMostAtOnce));
-    const std::vector<float> factors = least_energy_factors(products_);
-    if (left <= kMostAtOnce) {
-      add_combination(factors, basis_, solution);
-      return;
-    }
-    cv::Mat1f change(solution.size(), 0.0F);
-    add_combination(factors, basis_, change);
-    cv::Mat1f product;
-    normal.apply(change, product);
-    solution += change;
-    residual -= product;
+void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, FirstStep first,
+                         cv::Mat1f& residual) {
+  int left = steps_;
+  for (; left > kMostAtOnce; left -= kMostAtOnce) {
+    make_basis(normal, first, residual, kMostAtOnce);
+    solution += first.length * first.direction;
+    first = {1.0F, padded_plane(solution.size()), padded_plane(solution.size())};
+    add_basis(first.direction, {0.0F, basis_[0], basis_[0]});
+    normal.apply(first.direction, first.product);
+  }
+  make_basis(normal, first, residual, left);
+  add_basis(solution, first);
+}
+
+void KrylovSteps::add_basis(cv::Mat1f& sum, const FirstStep& first) const {
+  std::vector<float> factors = least_energy_factors(products_);
+  factors.push_back(first.length);
+  std::vector<const float*> rows(factors.size());
+  for (int y = 0; y < sum.rows; ++y) {
+    for (std::size_t k = 0; k < products_.size(); ++k) rows[k] = basis_[k][y];
+    rows.back() = first.direction[y];
+    add_combination(sum.cols, static_cast<int>(rows.size()), factors.data(), rows.data(), sum[y]);
   }
 }
 
-void KrylovSteps::make_basis(const MotionOperator& normal, const cv::Mat1f& residual, int count) {
+void KrylovSteps::make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual,
+                             int count) {
   products_.assign(static_cast<std::size_t>(count), {});
+  if (count == 0) return;
   for (int begin = 0; begin < residual.rows + count; ++begin) {
+    if (begin < residual.rows) {
+      take_out(padded(residual.cols), first.length, first.product[begin], residual[begin]);
+      make_first_row(normal, residual, begin);
+    }
     // z_k follows a row behind z_(k-1).
-    for (int k = 0; k <= count; ++k) {
+    for (int k = 1; k <= count; ++k) {
       const int y = begin - k;
-      if (y >= 0 && y < residual.rows) make_row(normal, residual, k, y);
+      if (y >= 0 && y < residual.rows) make_next_row(normal, residual, k, y);
     }
   }
 }
 
-void KrylovSteps::make_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y) {
+void KrylovSteps::make_first_row(const MotionOperator& normal, const cv::Mat1f& residual, int y) {
+  normal.inverse_diagonal_row(y, inverse_row(y));
+  products_[0].residual += first_row(padded(residual.cols), inverse_row(y), residual[y], basis_[0][y]);
+}
+
+void KrylovSteps::make_next_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y) {
   const int cols = padded(residual.cols);
   const auto own = static_cast<std::size_t>(k);
-  if (k == 0) {
-    normal.inverse_diagonal_row(y, inverse_row(y));
-    products_[0].residual += first_row(cols, inverse_row(y), residual[y], basis_[0][y]);
-    return;
-  }
   const cv::Mat1f& last = basis_[own - 1];
   KrylovProducts& products = products_[own - 1];
   float* const product = product_[0];

@@ -8,6 +8,12 @@
 
 namespace esi {
 
+/// A step that comes first: along a vector, of which the product with M is there already. Padded planes.
+struct FirstStep {
+  float length;
+  cv::Mat1f direction, product;
+};
+
 /// Several steps of conjugate gradients (Jacobi's preconditioner) at once. n steps find the point of least
 /// energy among the combinations of n vectors, for which any basis will do. With D the diagonal of M we take
 ///   z_0 = D^-1 r,   z_k = T_k(X) z_0,   X = D^-1 M / 2 - 1                                        (9)
@@ -20,15 +26,20 @@ class KrylovSteps {
   /// At most kMostAtOnce steps share a pass.
   KrylovSteps(cv::Size size, int steps);
 
-  /// Adds to `solution` what the steps make of `residual`, a padded plane, which is used up.
-  void add_to(cv::Mat1f& solution, const MotionOperator& normal, cv::Mat1f& residual);
+  /// Adds to `solution` the first step and what the others make of the residual then. `residual` is a padded
+  /// plane, and is used up.
+  void add_to(cv::Mat1f& solution, const MotionOperator& normal, FirstStep first, cv::Mat1f& residual);
 
  private:
   static constexpr int kMostAtOnce = 12;
 
-  void make_basis(const MotionOperator& normal, const cv::Mat1f& residual, int count);
-  /// Row y of z_k, and what M z_(k-1) gives to the products there.
-  void make_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y);
+  /// Takes the first step out of the residual on the way.
+  void make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual, int count);
+  void make_first_row(const MotionOperator& normal, const cv::Mat1f& residual, int y);
+  /// Row y of z_k, unless that is one too many, and what M z_(k-1) gives to the products there.
+  void make_next_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y);
+  /// sum += the first step and the combination of least energy
+  void add_basis(cv::Mat1f& sum, const FirstStep& first) const;
   float* inverse_row(int y) { return inverse_[y % inverse_.rows]; }
 
   int steps_;

@@ -36,23 +36,17 @@ ESI_SIMD void inverse_diagonal_between(int begin, int end, const float* __restri
     out[x] = 1.0F / (own + ((below_dd[x] + above_dd[x - 1]) + (above_ee[x] + below_ee[x - 1])));
 }
 
-/// Corner X of the half resolution lies on corner 2 X + 1; the mean is of 3x3 around it, [1 2 1]/4 each way.
-ESI_SIMD void halve_corners_row(int corners, const float* __restrict a, const float* __restrict b,
-                                const float* __restrict c, float* __restrict out) {
-  for (int x = 0; x < corners; ++x) {
-    const int i = 2 * x;
-    const float left = a[i] + 2.0F * b[i] + c[i];
-    const float middle = a[i + 1] + 2.0F * b[i + 1] + c[i + 1];
-    const float right = a[i + 2] + 2.0F * b[i + 2] + c[i + 2];
-    out[x] = 0.0625F * (left + 2.0F * middle + right);
-  }
+/// [1 2 1] / 4 across rows.
+ESI_SIMD void mix_rows(int cols, const float* __restrict a, const float* __restrict b,
+                       const float* __restrict c, float* __restrict out) {
+  for (int x = 0; x < cols; ++x) out[x] = 0.25F * (a[x] + c[x]) + 0.5F * b[x];
 }
 
-void halve_corners(const cv::Mat1f& fine, cv::Mat1f& coarse) {
-  coarse.row(coarse.rows - 1).setTo(0.0F);
-  for (int y = 0; y + 1 < coarse.rows; ++y) {
-    halve_corners_row(coarse.cols - 1, fine[2 * y], fine[2 * y + 1], fine[2 * y + 2], coarse[y]);
-    coarse(y, coarse.cols - 1) = 0.0F;
+/// The same along a row, at every second corner.
+ESI_SIMD void mix_along(int corners, const float* __restrict line, float* __restrict out) {
+  for (int x = 0; x < corners; ++x) {
+    const int i = 2 * x;
+    out[x] = 0.25F * (line[i] + line[i + 2]) + 0.5F * line[i + 1];
   }
 }
 
@@ -108,11 +102,23 @@ void MotionOperator::inverse_diagonal_row(int y, float* out) const {
 }
 
 void MotionOperator::coarsen(MotionOperator& coarse) const {
-  halve_corners(dd, coarse.dd);
-  halve_corners(de, coarse.de);
-  halve_corners(ee, coarse.ee);
   coarse.eps = eps;
   coarse.mu = 4.0F * mu;
+  for (int y = 0; y < coarse.dd.rows; ++y) coarsen_row(y, coarse);
+}
+
+void MotionOperator::coarsen_row(int y, MotionOperator& coarse) const {
+  // Corner (X, Y) of the half resolution lies on corner (2 X + 1, 2 Y + 1). The last row stays 0.
+  if (y + 1 >= coarse.dd.rows) return;
+  std::vector<float>& line = coarse.line_;
+  line.resize(static_cast<std::size_t>(dd.cols));
+  const auto halve = [&](const cv::Mat1f& a, cv::Mat1f& half) {
+    mix_rows(dd.cols, a[2 * y], a[2 * y + 1], a[2 * y + 2], line.data());
+    mix_along(half.cols - 1, line.data(), half[y]);
+  };
+  halve(dd, coarse.dd);
+  halve(de, coarse.de);
+  halve(ee, coarse.ee);
 }
 
 }  // namespace esi

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 namespace esi {
 
@@ -26,7 +27,7 @@ class MotionOperator {
   void inverse_diagonal_row(int y, float* out) const;
 
   /// The same problem on half the resolution. In two dimensions the energy of a gradient doesn't depend on
-  /// the pixels' size, that of mu does.
+  /// the pixels' size, that of mu does. `coarse` has half this size, rounded up.
   void coarsen(MotionOperator& coarse) const;
 
   cv::Mat1f dd, de, ee;
@@ -37,6 +38,9 @@ class MotionOperator {
   /// The row of corners above pixels y. There is none above the first; the last one, which holds 0, does for
   /// it.
   int corner_above(int y) const { return y > 0 ? y - 1 : dd.rows - 1; }
+  void coarsen_row(int y, MotionOperator& coarse) const;
+
+  std::vector<float> line_;  ///< a row between rows of a finer operator
 };
 
 }  // namespace esi

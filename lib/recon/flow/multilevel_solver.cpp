@@ -14,11 +14,6 @@ ESI_SIMD void subtract_from(int count, const float* __restrict x, float* __restr
   for (int i = 0; i < count; ++i) y[i] = x[i] - y[i];
 }
 
-/// y += factor x
-ESI_SIMD void add_scaled(int count, float factor, const float* __restrict x, float* __restrict y) {
-  for (int i = 0; i < count; ++i) y[i] += factor * x[i];
-}
-
 /// Where there is nothing left to improve, or no direction to do it in.
 constexpr double kNothing = 1e-30;
 
@@ -41,25 +36,26 @@ void MultilevelSolver::solve(const MotionOperator& fine, const cv::Mat1f& rhs, i
 }
 
 void MultilevelSolver::cycle(const cv::Mat1f& rhs, cv::Mat1f& solution) {
-  Level& finest = levels_.front();
+  cv::Mat1f& residual = levels_.front().residual;
   for (int y = 0; y < rhs.rows; ++y) {
-    fine_->apply_row(solution, y, finest.residual[y]);
-    subtract_from(rhs.cols, rhs[y], finest.residual[y]);
+    fine_->apply_row(solution, y, residual[y]);
+    subtract_from(rhs.cols, rhs[y], residual[y]);
   }
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     sum_by_twos(levels_[i - 1].residual, 1.0F, levels_[i].residual);
     levels_[i].correction.setTo(0.0F);
   }
   for (std::size_t i = levels_.size(); i-- > 0;) {
-    cv::Mat1f& target = i == 0 ? solution : levels_[i].correction;
-    if (i + 1 < levels_.size()) take_correction(levels_[i + 1], levels_[i], operator_of(i), target);
-    levels_[i].steps.add_to(target, operator_of(i), levels_[i].residual);
+    Level& level = levels_[i];
+    const float length =
+        i + 1 < levels_.size() ? take_correction(levels_[i + 1], level, operator_of(i)) : 0.0F;
+    level.steps.add_to(i == 0 ? solution : level.correction, operator_of(i),
+                       {length, level.direction, level.product}, level.residual);
   }
 }
 
-void MultilevelSolver::take_correction(const Level& coarse, Level& level, const MotionOperator& normal,
-                                       cv::Mat1f& correction) {
-  const cv::Size size = correction.size();
+float MultilevelSolver::take_correction(const Level& coarse, Level& level, const MotionOperator& normal) {
+  const cv::Size size = level.residual.size();
   const int cols = padded(size.width);
   DoubleSize doubled(coarse.correction);
   double energy = 0.0;
@@ -74,12 +70,7 @@ void MultilevelSolver::take_correction(const Level& coarse, Level& level, const 
       energy += dot(level.direction[y], level.product[y], cols);
     }
   }
-  if (energy < kNothing) return;
-  const auto step = static_cast<float>(descent / energy);
-  for (int y = 0; y < size.height; ++y) {
-    add_scaled(size.width, step, level.direction[y], correction[y]);
-    add_scaled(cols, -step, level.product[y], level.residual[y]);
-  }
+  return energy < kNothing ? 0.0F : static_cast<float>(descent / energy);
 }
 
 }  // namespace esi

@@ -28,14 +28,14 @@ class MultilevelSolver {
   struct Level {
     MotionOperator normal;
     cv::Mat1f residual, correction;
-    cv::Mat1f direction, product;  ///< the correction from below and what M makes of it
+    cv::Mat1f direction, product;  ///< the correction from below, and M times it
     KrylovSteps steps;
   };
 
   void cycle(const cv::Mat1f& rhs, cv::Mat1f& solution);
-  /// Adds coarse's correction to this level's, and takes its effect out of the residual.
-  void take_correction(const Level& coarse, Level& level, const MotionOperator& normal,
-                       cv::Mat1f& correction);
+  /// Brings coarse's correction to this level, with its product; returns how far to go along it, equation
+  /// (8).
+  static float take_correction(const Level& coarse, Level& level, const MotionOperator& normal);
 
   const MotionOperator& operator_of(std::size_t level) const {
     return level == 0 ? *fine_ : levels_[level].normal;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <opencv2/core.hpp>
 
+#include "esi/recon/flow/simd.hpp"
+
 namespace esi {
 namespace {
 
@@ -23,6 +25,15 @@ std::vector<float> half_kernel(double deviation_px, int reach_px) {
   return weights;
 }
 
+ESI_SIMD void scale(int cols, float weight, const float* __restrict in, float* __restrict out) {
+  for (int x = 0; x < cols; ++x) out[x] = weight * in[x];
+}
+
+ESI_SIMD void add_both(int cols, float weight, const float* __restrict a, const float* __restrict b,
+                       float* __restrict out) {
+  for (int x = 0; x < cols; ++x) out[x] += weight * (a[x] + b[x]);
+}
+
 /// gfedcb|abcdefgh|gfedcba, however small the image is.
 int mirrored(int i, int size) { return cv::borderInterpolate(i, size, cv::BORDER_REFLECT_101); }
 
@@ -38,12 +49,12 @@ void Gaussian::apply(cv::Mat1f& image) {
   for (int y = 0; y < image.rows; ++y) {
     float* const out = image[y];
     const float* const middle = rows_[y];
-    for (int x = 0; x < cols; ++x) out[x] = half_[0] * middle[x];
+    scale(cols, half_[0], middle, out);
     for (int i = 1; i <= reach_px_; ++i) {
       const float weight = half_[static_cast<std::size_t>(i)];
       const float* const above = rows_[mirrored(y - i, image.rows)];
       const float* const below = rows_[mirrored(y + i, image.rows)];
-      for (int x = 0; x < cols; ++x) out[x] += weight * (above[x] + below[x]);
+      add_both(cols, weight, above, below, out);
     }
   }
 }
@@ -60,10 +71,10 @@ void Gaussian::blur_rows(const cv::Mat1f& image) {
       line[cols - 1 + i] = image(y, mirrored(cols - 1 + i, cols));
     }
     float* const out = rows_[y];
-    for (int x = 0; x < cols; ++x) out[x] = half_[0] * line[x];
+    scale(cols, half_[0], line, out);
     for (int i = 1; i <= reach_px_; ++i) {
       const float weight = half_[static_cast<std::size_t>(i)];
-      for (int x = 0; x < cols; ++x) out[x] += weight * (line[x - i] + line[x + i]);
+      add_both(cols, weight, line - i, line + i, out);
     }
   }
 }
