@@ -9,7 +9,7 @@ namespace {
 /// Where there is nothing left to improve.
 constexpr double kNothing = 1e-30;
 /// Of a vector's energy, what must be left of it without the vectors before it: its entries are floats.
-constexpr double kLeastNew = 1e-7;
+constexpr double kLeastNew = 1e-6;
 
 /// m_j = z_0 . M T_j z_0, from j = 0 on.
 std::vector<double> moments_of(const std::vector<KrylovProducts>& products) {

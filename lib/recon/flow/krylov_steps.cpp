@@ -71,25 +71,20 @@ ESI_SIMD void add_combination(int cols, int count, const float* __restrict facto
 
 }  // namespace
 
-KrylovSteps::KrylovSteps(cv::Size size, int steps) : steps_(steps) {
-  const int most = std::min(steps, kMostAtOnce);
-  for (int k = 0; k < most; ++k) basis_.push_back(padded_plane(size));
-  inverse_ = padded_plane({size.width, most + 1});
-  product_ = padded_plane({size.width, 1});
+KrylovSteps::KrylovSteps(cv::Size size, int steps)
+    : one_by_one_(steps > kMostAtOnce || size.area() < kLeastPixels ? steps : 0),
+      conjugate_gradients_(one_by_one_ > 0 ? size : cv::Size(1, 1)),
+      inverse_(padded_plane({size.width, kMostAtOnce + 1})),
+      product_(padded_plane({size.width, 1})) {
+  for (int k = 0; k < steps - one_by_one_; ++k) basis_.push_back(padded_plane(size));
+  products_.resize(basis_.size());
 }
 
-void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, FirstStep first,
+void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, const FirstStep& first,
                          cv::Mat1f& residual) {
-  int left = steps_;
-  for (; left > kMostAtOnce; left -= kMostAtOnce) {
-    make_basis(normal, first, residual, kMostAtOnce);
-    solution += first.length * first.direction;
-    first = {1.0F, padded_plane(solution.size()), padded_plane(solution.size())};
-    add_basis(first.direction, {0.0F, basis_[0], basis_[0]});
-    normal.apply(first.direction, first.product);
-  }
-  make_basis(normal, first, residual, left);
+  make_basis(normal, first, residual);
   add_basis(solution, first);
+  if (one_by_one_ > 0) conjugate_gradients_.add_steps(normal, one_by_one_, residual, solution);
 }
 
 void KrylovSteps::add_basis(cv::Mat1f& sum, const FirstStep& first) const {
@@ -103,14 +98,13 @@ void KrylovSteps::add_basis(cv::Mat1f& sum, const FirstStep& first) const {
   }
 }
 
-void KrylovSteps::make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual,
-                             int count) {
-  products_.assign(static_cast<std::size_t>(count), {});
-  if (count == 0) return;
+void KrylovSteps::make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual) {
+  std::fill(products_.begin(), products_.end(), KrylovProducts{});
+  const auto count = static_cast<int>(basis_.size());
   for (int begin = 0; begin < residual.rows + count; ++begin) {
     if (begin < residual.rows) {
       take_out(padded(residual.cols), first.length, first.product[begin], residual[begin]);
-      make_first_row(normal, residual, begin);
+      if (count > 0) make_first_row(normal, residual, begin);
     }
     // z_k follows a row behind z_(k-1).
     for (int k = 1; k <= count; ++k) {

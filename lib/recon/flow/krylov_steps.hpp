@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "esi/recon/flow/conjugate_gradients.hpp"
 #include "esi/recon/flow/krylov_products.hpp"
 #include "esi/recon/flow/motion_operator.hpp"
 
@@ -23,18 +24,20 @@ struct FirstStep {
 /// in cache.
 class KrylovSteps {
  public:
-  /// At most kMostAtOnce steps share a pass.
+  /// More steps than a few are taken one after another, and so are those on an image of few pixels, which
+  /// they nearly solve: there a basis would lose itself in float's rounding.
   KrylovSteps(cv::Size size, int steps);
 
   /// Adds to `solution` the first step and what the others make of the residual then. `residual` is a padded
   /// plane, and is used up.
-  void add_to(cv::Mat1f& solution, const MotionOperator& normal, FirstStep first, cv::Mat1f& residual);
+  void add_to(cv::Mat1f& solution, const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual);
 
  private:
-  static constexpr int kMostAtOnce = 12;
+  static constexpr int kMostAtOnce = 6;
+  static constexpr int kLeastPixels = 64;
 
   /// Takes the first step out of the residual on the way.
-  void make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual, int count);
+  void make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual);
   void make_first_row(const MotionOperator& normal, const cv::Mat1f& residual, int y);
   /// Row y of z_k, unless that is one too many, and what M z_(k-1) gives to the products there.
   void make_next_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y);
@@ -42,7 +45,8 @@ class KrylovSteps {
   void add_basis(cv::Mat1f& sum, const FirstStep& first) const;
   float* inverse_row(int y) { return inverse_[y % inverse_.rows]; }
 
-  int steps_;
+  int one_by_one_;
+  ConjugateGradients conjugate_gradients_;
   std::vector<cv::Mat1f> basis_;
   std::vector<KrylovProducts> products_;
   cv::Mat1f inverse_;  ///< diagonal: its latest rows

@@ -50,6 +50,18 @@ TEST_CASE("the right-hand side is that of the energy, for the events of a moving
   CHECK(cv::norm(rhs, product, cv::NORM_INF) < 1e-3);
 }
 
+TEST_CASE("an image of one row or column has no corners, and no right-hand side") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 20), cv::Size(20, 1)}) {
+    BrightnessModel model(size,
+                          {.eps = 0.02F, .mu = 0.001F, .memory = 1.0F, .memory_px = 2.0F, .weight = 1.0F});
+    CellGrid cells(size, 16.0);
+    model.take(random_image(size, 4), constant(cells, 0.7F, -0.4F), cells);
+    cv::Mat1f rhs(size, 1.0F);
+    model.right_hand_side(rhs);
+    CHECK(cv::norm(rhs) == 0.0);
+  }
+}
+
 TEST_CASE("the image and a move with the motion") {
   BrightnessModel model(kImage,
                         {.eps = 0.02F, .mu = 0.001F, .memory = 1.0F, .memory_px = 1e6F, .weight = 1.0F});

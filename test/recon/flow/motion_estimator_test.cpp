@@ -87,6 +87,25 @@ TEST_CASE("a pair that is several windows apart gives the motion of one") {
   CHECK(worst_error(estimate(motion, 4.0F, 4), motion) < 0.1);
 }
 
+TEST_CASE("pairs of different distances go together, in any order") {
+  const cv::Point2d v(0.6, -0.4);
+  const Waves waves(3, 16.0, 60.0);
+  const auto image_after = [&](double windows) {
+    return image_of(half_of(kFull), [&](int x, int y) { return waves.at(in_full(x, y) - windows * v); });
+  };
+  const cv::Mat1f before = image_after(0.0);
+  const cv::Mat1f after = image_after(1.0);
+  const cv::Mat1f later = image_after(3.0);
+  const MovedPair near{before, after, 1.0F, 1.0F};
+  const MovedPair far{before, later, 1.0F, 3.0F};
+  for (const auto& pairs : {std::array{near, far, near}, std::array{far, near, far}}) {
+    MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+    MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
+    for (int i = 0; i < 4; ++i) estimator.improve(pairs, field);
+    CHECK(worst_error(field, [v](cv::Point2d) { return v; }) < 0.05);
+  }
+}
+
 TEST_CASE("pairs count by their weights, and without texture the motion is the neighbours'") {
   const Waves waves(3, 16.0, 60.0);
   const cv::Size half = half_of(kFull);

@@ -60,6 +60,24 @@ TEST_CASE("the diagonal is what a single pixel gets back") {
   }
 }
 
+TEST_CASE("A on half the resolution is the mean around the same place") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 3), cv::Size(2, 9), cv::Size(41, 34)}) {
+    const MotionOperator fine = random_operator(size, 8);
+    const cv::Size half((size.width + 1) / 2, (size.height + 1) / 2);
+    MotionOperator coarse(half);
+    fine.coarsen(coarse);
+    cv::Mat1f expected(half, 0.0F);
+    for (int y = 0; y + 1 < half.height; ++y) {
+      for (int x = 0; x + 1 < half.width; ++x) {
+        for (const cv::Point by : {cv::Point(0, 0), cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1)})
+          expected(y, x) += static_cast<float>(
+              0.25 * cv::mean(fine.de(cv::Rect(cv::Point(2 * x, 2 * y) + by, cv::Size(2, 2))))[0]);
+      }
+    }
+    CHECK(cv::norm(coarse.de, expected, cv::NORM_INF) < 1e-5);
+  }
+}
+
 TEST_CASE("on half the resolution a ramp costs what it costs on the full one") {
   const cv::Size size(64, 48);
   MotionOperator fine(size);

@@ -2,6 +2,7 @@
 
 #include "esi/recon/flow/bilinear_row.hpp"
 #include "esi/recon/flow/cell_grid.hpp"
+#include "esi/recon/flow/double_size.hpp"
 #include "esi/recon/flow/half_size.hpp"
 #include "esi/recon/flow/row_sums.hpp"
 #include "recon/flow/random_problems.hpp"
@@ -26,6 +27,38 @@ TEST_CASE("a row is looked up bilinearly, and the border goes on outside") {
         const double at_x = std::clamp(x + double{offset} - 0.7 * double{vx(x)}, 0.0, 20.0);
         const double at_y = std::clamp(y + double{offset} - 0.7 * double{vy(x)}, 0.0, 8.0);
         CHECK(out[static_cast<std::size_t>(x)] == Approx(plane(at_x, at_y)).margin(1e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("smooth motion is looked up as any other, also in images of one row or column") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 9), cv::Size(9, 1), cv::Size(75, 4)}) {
+    const cv::Mat1f image = random_image(size, 7);
+    const auto pixel = [&](int x, int y) {
+      return double{image(std::clamp(y, 0, size.height - 1), std::clamp(x, 0, size.width - 1))};
+    };
+    BilinearRow row(size);
+    std::vector<float> vx, vy, out(static_cast<std::size_t>(size.width));
+    for (int x = 0; x < size.width; ++x) {
+      // Runs of one shift that end anywhere.
+      vx.push_back(0.6F + 0.07F * static_cast<float>(x));
+      vy.push_back(x < 40 ? -0.4F : 0.8F);
+    }
+    for (int y = 0; y < size.height; ++y) {
+      row.place(y, vx.data(), vy.data(), 1.0F);
+      row.sample(image, out.data());
+      for (int x = 0; x < size.width; ++x) {
+        const auto i = static_cast<std::size_t>(x);
+        const double at_x = x - double{vx[i]};
+        const double at_y = y - double{vy[i]};
+        const int left = static_cast<int>(std::floor(at_x));
+        const int above = static_cast<int>(std::floor(at_y));
+        const double upper =
+            pixel(left, above) + (at_x - left) * (pixel(left + 1, above) - pixel(left, above));
+        const double lower =
+            pixel(left, above + 1) + (at_x - left) * (pixel(left + 1, above + 1) - pixel(left, above + 1));
+        CHECK(double{out[i]} == Approx(upper + (at_y - above) * (lower - upper)).margin(1e-4));
       }
     }
   }
@@ -66,6 +99,48 @@ TEST_CASE("half the size sums by twos, an odd border counting twice") {
   sum_by_twos(cv::Mat1f(1, 1, 3.0F), 1.0F, half);
   CHECK(half.size() == cv::Size(1, 1));
   CHECK(half(0) == 12.0F);
+}
+
+TEST_CASE("a cell may be larger than the image, or a pixel") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(5, 3)}) {
+    for (const double cell_px : {16.0, 1.0}) {
+      CellGrid grid(size, cell_px);
+      const cv::Mat1f cells = random_image(grid.size(), 8);
+      std::vector<float> out(static_cast<std::size_t>(size.width));
+      for (int y = 0; y < size.height; ++y) {
+        grid.interpolate_row(cells, y, 2.0F, out.data());
+        for (int x = 0; x < size.width; ++x)
+          CHECK(out[static_cast<std::size_t>(x)] == 2.0F * cells(grid.cell_of(y), grid.cell_of(x)));
+      }
+    }
+  }
+}
+
+TEST_CASE("twice the size lies a quarter of a pixel beside, and the border goes on outside") {
+  for (const cv::Size size :
+       {cv::Size(1, 1), cv::Size(2, 1), cv::Size(1, 2), cv::Size(9, 6), cv::Size(46, 33)}) {
+    const cv::Mat1f coarse = random_image(half_of(size), 9);
+    DoubleSize doubled(coarse);
+    std::vector<float> out(static_cast<std::size_t>(size.width) + 1, 5.0F);
+    for (int y = 0; y < size.height; ++y) {
+      doubled.row(y, size.width, out.data());
+      for (int x = 0; x < size.width; ++x) {
+        const double at_x = std::clamp(0.5 * x - 0.25, 0.0, coarse.cols - 1.0);
+        const double at_y = std::clamp(0.5 * y - 0.25, 0.0, coarse.rows - 1.0);
+        const int left = std::min(static_cast<int>(at_x), std::max(coarse.cols - 2, 0));
+        const int above = std::min(static_cast<int>(at_y), std::max(coarse.rows - 2, 0));
+        const int right = std::min(left + 1, coarse.cols - 1);
+        const int below = std::min(above + 1, coarse.rows - 1);
+        const auto along = [&](int row) {
+          return double{coarse(row, left)} +
+                 (at_x - left) * (double{coarse(row, right)} - double{coarse(row, left)});
+        };
+        CHECK(double{out[static_cast<std::size_t>(x)]} ==
+              Approx(along(above) + (at_y - above) * (along(below) - along(above))).margin(1e-5));
+      }
+      CHECK(out.back() == 5.0F);
+    }
+  }
 }
 
 TEST_CASE("a sum of products of any length") {

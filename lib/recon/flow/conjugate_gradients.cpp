@@ -1,0 +1,87 @@
+#include "esi/recon/flow/conjugate_gradients.hpp"
+
+#include "esi/recon/flow/padded_plane.hpp"
+#include "esi/recon/flow/row_sums.hpp"
+#include "esi/recon/flow/simd.hpp"
+
+namespace esi {
+namespace {
+
+/// Where there is nothing left to improve.
+constexpr double kNothing = 1e-30;
+
+/// y += factor x
+ESI_SIMD void add_scaled(int count, float factor, const float* __restrict x, float* __restrict y) {
+  for (int i = 0; i < count; ++i) y[i] += factor * x[i];
+}
+
+/// direction = keep direction + inverse residual
+ESI_SIMD void turn_row(int count, float keep, const float* __restrict inverse,
+                       const float* __restrict residual, float* __restrict direction) {
+  for (int i = 0; i < count; ++i) direction[i] = keep * direction[i] + inverse[i] * residual[i];
+}
+
+/// residual -= step product; returns residual . inverse residual
+ESI_SIMD double go_row(int padded_cols, float step, const float* __restrict product,
+                       const float* __restrict inverse, float* __restrict residual) {
+  float sums[kVectorFloats] = {};
+  for (int i = 0; i < padded_cols; i += kVectorFloats) {
+    for (int k = 0; k < kVectorFloats; ++k) {
+      const float left = residual[i + k] - step * product[i + k];
+      residual[i + k] = left;
+      sums[k] += left * left * inverse[i + k];
+    }
+  }
+  return sum_of(sums);
+}
+
+}  // namespace
+
+ConjugateGradients::ConjugateGradients(cv::Size size)
+    : inverse_diagonal_(padded_plane(size)), direction_(padded_plane(size)), product_(padded_plane(size)) {}
+
+void ConjugateGradients::add_steps(const MotionOperator& normal, int steps, cv::Mat1f& residual,
+                                   cv::Mat1f& solution) {
+  double remaining = begin(normal, residual);
+  for (int i = 0; i < steps && remaining > kNothing; ++i) {
+    const double energy = make_product(normal);
+    if (energy < kNothing) return;
+    const double next = go(static_cast<float>(remaining / energy), residual, solution);
+    turn(static_cast<float>(next / remaining), residual);
+    remaining = next;
+  }
+}
+
+double ConjugateGradients::begin(const MotionOperator& normal, const cv::Mat1f& residual) {
+  direction_.setTo(0.0F);
+  for (int y = 0; y < residual.rows; ++y) normal.inverse_diagonal_row(y, inverse_diagonal_[y]);
+  turn(0.0F, residual);
+  double product = 0.0;
+  for (int y = 0; y < residual.rows; ++y) product += dot(direction_[y], residual[y], padded(residual.cols));
+  return product;
+}
+
+double ConjugateGradients::make_product(const MotionOperator& normal) {
+  double energy = 0.0;
+  for (int y = 0; y < direction_.rows; ++y) {
+    normal.apply_row(direction_, y, product_[y]);
+    energy += dot(direction_[y], product_[y], padded(direction_.cols));
+  }
+  return energy;
+}
+
+double ConjugateGradients::go(float step, cv::Mat1f& residual, cv::Mat1f& solution) {
+  double remaining = 0.0;
+  for (int y = 0; y < residual.rows; ++y) {
+    add_scaled(solution.cols, step, direction_[y], solution[y]);
+    remaining += go_row(padded(residual.cols), step, product_[y], inverse_diagonal_[y], residual[y]);
+  }
+  return remaining;
+}
+
+void ConjugateGradients::turn(float keep, const cv::Mat1f& residual) {
+  for (int y = 0; y < residual.rows; ++y)
+    turn_row(padded(residual.cols), keep, inverse_diagonal_[y], residual[y], direction_[y]);
+}
+
+}  // namespace esi
