@@ -69,10 +69,19 @@ ESI_SIMD void add_combination(int cols, int count, const float* __restrict facto
   }
 }
 
+constexpr int kMostAtOnce = 6;
+constexpr int kLeastPixels = 64;
+
+/// Of more steps, or where they nearly solve the problem, a basis is lost in float's rounding. An image of
+/// one row or column has no corners: eps and mu alone are soon solved.
+bool loses_itself(cv::Size size, int steps) {
+  return steps > kMostAtOnce || size.area() < kLeastPixels || std::min(size.width, size.height) == 1;
+}
+
 }  // namespace
 
 KrylovSteps::KrylovSteps(cv::Size size, int steps)
-    : one_by_one_(steps > kMostAtOnce || size.area() < kLeastPixels ? steps : 0),
+    : one_by_one_(loses_itself(size, steps) ? steps : 0),
       conjugate_gradients_(one_by_one_ > 0 ? size : cv::Size(1, 1)),
       inverse_(padded_plane({size.width, kMostAtOnce + 1})),
       product_(padded_plane({size.width, 1})) {

@@ -24,8 +24,7 @@ struct FirstStep {
 /// in cache.
 class KrylovSteps {
  public:
-  /// More steps than a few are taken one after another, and so are those on an image of few pixels, which
-  /// they nearly solve: there a basis would lose itself in float's rounding.
+  /// More than six steps are taken one after another, and so are those on an image of a few pixels.
   KrylovSteps(cv::Size size, int steps);
 
   /// Adds to `solution` the first step and what the others make of the residual then. `residual` is a padded
@@ -33,9 +32,6 @@ class KrylovSteps {
   void add_to(cv::Mat1f& solution, const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual);
 
  private:
-  static constexpr int kMostAtOnce = 6;
-  static constexpr int kLeastPixels = 64;
-
   /// Takes the first step out of the residual on the way.
   void make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual);
   void make_first_row(const MotionOperator& normal, const cv::Mat1f& residual, int y);

@@ -80,6 +80,8 @@ TEST_CASE("steps at once are as good as one after another") {
     const LeastSquaresReference reference(normal);
     const cv::Mat1f residual = random_image(size, 42);
     for (const int steps : {0, 1, 2, 3, 4, 6, 7, 12}) {
+      // As many steps as there are pixels would solve the problem; then only rounding is left to compare.
+      if (2 * steps > size.area()) continue;
       INFO(size.width << "x" << size.height << ", " << steps << " steps");
       const cv::Mat1d expected = conjugate_gradients(reference, in_double(residual), steps);
       const cv::Mat1d shown = in_double(steps_at_once(normal, residual, steps));
