@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "esi/recon/flow/cell_smoothing.hpp"
 #include "esi/recon/flow/simd.hpp"
 
 namespace esi {
@@ -37,36 +38,6 @@ ESI_SIMD void add_terms(int cols, const float* __restrict above, const float* __
   }
 }
 
-/// One of the neighbours of cell (x, y), the border going on outside.
-float beside(const cv::Mat1f& cells, int y, int x) {
-  return cells(std::clamp(y, 0, cells.rows - 1), std::clamp(x, 0, cells.cols - 1));
-}
-
-/// [1 2 1] / 4 along both axes.
-void smooth(cv::Mat1f& cells) {
-  cv::Mat1f along_x(cells.size());
-  for (int y = 0; y < cells.rows; ++y) {
-    for (int x = 0; x < cells.cols; ++x)
-      along_x(y, x) = 0.25F * (beside(cells, y, x - 1) + beside(cells, y, x + 1)) + 0.5F * cells(y, x);
-  }
-  for (int y = 0; y < cells.rows; ++y) {
-    for (int x = 0; x < cells.cols; ++x)
-      cells(y, x) = 0.25F * (beside(along_x, y - 1, x) + beside(along_x, y + 1, x)) + 0.5F * along_x(y, x);
-  }
-}
-
-/// The mean of the four neighbours.
-cv::Mat1f neighbours_of(const cv::Mat1f& cells) {
-  cv::Mat1f mean(cells.size());
-  for (int y = 0; y < cells.rows; ++y) {
-    for (int x = 0; x < cells.cols; ++x) {
-      mean(y, x) = 0.25F * ((beside(cells, y - 1, x) + beside(cells, y + 1, x)) +
-                            (beside(cells, y, x - 1) + beside(cells, y, x + 1)));
-    }
-  }
-  return mean;
-}
-
 void take_median(cv::Mat1f& cells) {
   cv::Mat1f medians;
   cv::medianBlur(cells, medians, 3);
@@ -92,8 +63,8 @@ void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& fie
     for (cv::Mat1f& sum : sums_) sum.setTo(0.0F);
     add_terms_of(pairs, field);
     for (cv::Mat1f& sum : sums_) {
-      smooth(sum);
-      smooth(sum);
+      smooth_cells(sum);
+      smooth_cells(sum);
     }
     step(field);
   }
@@ -149,8 +120,8 @@ void MotionEstimator::end_cells(int cell_row) {
 }
 
 void MotionEstimator::step(MotionField& field) {
-  const cv::Mat1f mean_x = neighbours_of(field.x);
-  const cv::Mat1f mean_y = neighbours_of(field.y);
+  const cv::Mat1f mean_x = mean_of_neighbours(field.x);
+  const cv::Mat1f mean_y = mean_of_neighbours(field.y);
   const auto reg = static_cast<float>(options_.regularisation);
   const auto& [xx, xy, yy, rx, ry] = sums_;
   for (int i = 0; i < static_cast<int>(field.x.total()); ++i) {

@@ -2,6 +2,7 @@
 
 #include "esi/recon/flow/bilinear_row.hpp"
 #include "esi/recon/flow/cell_grid.hpp"
+#include "esi/recon/flow/cell_smoothing.hpp"
 #include "esi/recon/flow/double_size.hpp"
 #include "esi/recon/flow/half_size.hpp"
 #include "esi/recon/flow/row_sums.hpp"
@@ -114,6 +115,28 @@ TEST_CASE("a cell may be larger than the image, or a pixel") {
       }
     }
   }
+}
+
+TEST_CASE("cells are smoothed by 1 2 1 both ways, and the border goes on outside") {
+  cv::Mat1f cells(3, 4, 0.0F);
+  cells(1, 1) = 16.0F;
+  smooth_cells(cells);
+  const cv::Mat1f within = (cv::Mat1f(3, 4) << 1, 2, 1, 0, 2, 4, 2, 0, 1, 2, 1, 0);
+  CHECK(cv::norm(cells, within) == 0.0);
+  cells.setTo(0.0F);
+  cells(0, 3) = 16.0F;
+  smooth_cells(cells);
+  const cv::Mat1f at_corner = (cv::Mat1f(3, 4) << 0, 0, 3, 9, 0, 0, 1, 3, 0, 0, 0, 0);
+  CHECK(cv::norm(cells, at_corner) == 0.0);
+  cv::Mat1f single(1, 1, 3.0F);
+  smooth_cells(single);
+  CHECK(single(0) == 3.0F);
+}
+
+TEST_CASE("the mean of a cell's neighbours leaves out the cell, but where it goes on outside") {
+  const cv::Mat1f cells = (cv::Mat1f(2, 3) << 4, 8, 12, 16, 20, 24);
+  const cv::Mat1f expected = (cv::Mat1f(2, 3) << 8, 11, 14, 14, 17, 20);
+  CHECK(cv::norm(mean_of_neighbours(cells), expected) == 0.0);
 }
 
 TEST_CASE("twice the size lies a quarter of a pixel beside, and the border goes on outside") {
