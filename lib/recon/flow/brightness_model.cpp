@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "esi/recon/flow/simd.hpp"
+#include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "esi/recon/flow/simd.hpp"
+#include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {

@@ -36,7 +36,7 @@ struct EsiFlowOptions {
   std::int64_t steps_half = 6;
   std::int64_t steps_coarse = 12;
   std::int64_t cycles = 1;
-  std::int64_t first_cycles = 2;
+  std::int64_t first_cycles = 8;
   std::int64_t first_windows = 20;
   double contrast_deviations = 1.5;
 

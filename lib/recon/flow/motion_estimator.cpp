@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "esi/recon/flow/cell_smoothing.hpp"
-#include "esi/recon/flow/simd.hpp"
+#include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {

@@ -4,7 +4,7 @@
 #include "esi/recon/flow/half_size.hpp"
 #include "esi/recon/flow/padded_plane.hpp"
 #include "esi/recon/flow/row_sums.hpp"
-#include "esi/recon/flow/simd.hpp"
+#include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {

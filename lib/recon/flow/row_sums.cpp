@@ -1,6 +1,6 @@
 #include "esi/recon/flow/row_sums.hpp"
 
-#include "esi/recon/flow/simd.hpp"
+#include "esi/recon/simd.hpp"
 
 namespace esi {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <opencv2/core.hpp>
 
-#include "esi/recon/flow/simd.hpp"
+#include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {
