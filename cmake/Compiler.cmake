@@ -17,6 +17,15 @@ if(CCACHE)
     ${CCACHE})
 endif()
 
+# What most files include is parsed once for all files of a large target, which makes a cold build faster. Not with
+# ccache, which does not go with it.
+function(esi_precompile target)
+  if(NOT CCACHE)
+    target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <cstdint> <filesystem> <functional> <memory>
+      <optional> <span> <string> <vector> <fmt/format.h> <opencv2/core.hpp> ${ARGN})
+  endif()
+endfunction()
+
 # No contraction to fused multiply-add: the same bytes come out whatever the CPU can do.
 add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Wpedantic -ffp-contract=off)
 # g++ 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105329).
