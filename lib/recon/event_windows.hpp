@@ -30,12 +30,14 @@ class EventWindows {
   /// come.
   void end_by(std::int64_t t_us, const Take& take);
 
+  /// k of the window of time that t_us lies in.
+  std::int64_t index_of(std::int64_t t_us) const;
+
  private:
   EventWindows(std::size_t count, std::int64_t duration_us) : count_(count), duration_us_(duration_us) {}
 
   /// How many events, from the first on, go into the open window.
   std::size_t fitting(std::span<const Event> events) const;
-  std::int64_t index_of(std::int64_t t_us) const;
   void hand_on(const Take& take);
 
   std::size_t count_;         ///< of a window's events, or 0

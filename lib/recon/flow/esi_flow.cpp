@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "esi/recon/flow/grey_levels.hpp"
+
 namespace esi {
 namespace {
 
@@ -12,9 +14,6 @@ namespace {
 constexpr double kReferenceWindow_us = 10'000.0;
 /// So many windows' flow comes from sums of event images: there is no L yet.
 constexpr std::int64_t kFirstWindows = 8;
-constexpr float kNeutral = 127.5F;
-/// Of L, below which there is nothing to show.
-constexpr double kLeastDeviation = 1e-6;
 
 cv::Size cv_size(SensorSize size) { return {size.width_px, size.height_px}; }
 
@@ -84,12 +83,8 @@ EventWindows::Take EsiFlow::step() {
       [this](std::span<const Event> window, std::span<const float> weights) { take_window(window, weights); };
 }
 
-std::int64_t EsiFlow::index_of(std::int64_t t_us) const {
-  return t_us / options_.window_us - (t_us % options_.window_us < 0 ? 1 : 0);
-}
-
 void EsiFlow::take_window(std::span<const Event> window, std::span<const float> weights) {
-  const std::int64_t index = index_of(window.front().t_us);
+  const std::int64_t index = windows_.index_of(window.front().t_us);
   const cv::Mat1f& b = event_image_.of(window, weights);
   smooth_(b, events_);
   if (last_window_ && index != *last_window_ + 1) {
@@ -142,9 +137,10 @@ void EsiFlow::estimate_motion() {
 }
 
 const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {
-  const std::int64_t open = index_of(t_us);
+  const std::int64_t open = windows_.index_of(t_us);
   const std::int64_t passed_us = t_us - open * options_.window_us;
-  const bool goes_on = last_event_us_ && index_of(*last_event_us_) == open && last_window_ == open - 1;
+  const bool goes_on =
+      last_event_us_ && windows_.index_of(*last_event_us_) == open && last_window_ == open - 1;
   if (!goes_on || passed_us == 0) return model_.log_intensity();
   const auto share =
       static_cast<float>(static_cast<double>(passed_us) / static_cast<double>(options_.window_us));
@@ -167,16 +163,7 @@ const cv::Mat2f* EsiFlow::motion() {
 
 void EsiFlow::render_levels(std::int64_t t_us, cv::Mat1f& levels) {
   windows_.end_by(t_us, step());
-  const cv::Mat1f& image = image_at(t_us);
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(image, mean, deviation);
-  levels.create(image.size());
-  if (deviation[0] < kLeastDeviation) {
-    levels.setTo(kNeutral);
-    return;
-  }
-  const double gain = static_cast<double>(kNeutral) / (options_.contrast_deviations * deviation[0]);
-  image.convertTo(levels, CV_32F, gain, static_cast<double>(kNeutral) - gain * mean[0]);
+  grey_levels(image_at(t_us), options_.contrast_deviations, levels);
 }
 
 }  // namespace esi

@@ -59,7 +59,6 @@ class EsiFlow final : public Reconstructor {
   void take_window(std::span<const Event> window, std::span<const float> weights);
   void estimate_motion();
   void estimate_first_motion();
-  std::int64_t index_of(std::int64_t t_us) const;
   /// The image at t_us: that of the last window, moved on where events show that the motion goes on.
   const cv::Mat1f& image_at(std::int64_t t_us);
 

@@ -4,6 +4,17 @@
 
 namespace esi {
 
+ESI_SIMD double sum(const float* __restrict a, int count) {
+  float sums[kVectorFloats] = {};
+  int i = 0;
+  for (; i + kVectorFloats <= count; i += kVectorFloats) {
+    for (int k = 0; k < kVectorFloats; ++k) sums[k] += a[i + k];
+  }
+  double rest = 0.0;
+  for (; i < count; ++i) rest += static_cast<double>(a[i]);
+  return rest + sum_of(sums);
+}
+
 ESI_SIMD double dot(const float* __restrict a, const float* __restrict b, int count) {
   float sums[kVectorFloats] = {};
   int i = 0;

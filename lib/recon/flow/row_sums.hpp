@@ -11,6 +11,9 @@ inline double sum_of(const float (&sums)[kVectorFloats]) {
   return sum;
 }
 
+/// Of `count` entries, always added in the same order.
+double sum(const float* a, int count);
+
 /// a . b over `count` entries, always added in the same order.
 double dot(const float* a, const float* b, int count);
 
