@@ -39,7 +39,7 @@ The paper's phases are not of our lengths, and it gives counts only; read down a
 ## Cost
 
 {machine()}, one thread per tool. Times are CPU times of the reconstruction alone, at the authors' defaults and 100 FPS,
-medians over the flights ({plan.cost_part[0]} to {plan.cost_part[1]} s of each); 1 Mev/s is a million events a second. The paper's throughputs are not in the material we have.
+medians over the flights ({plan.cost_part[0]} to {plan.cost_part[1]} s of each; the networks over the parts below); 1 Mev/s is a million events a second. The paper's throughputs are not in the material we have.
 
 {tables.costs(run)}
 ## Networks
@@ -65,7 +65,8 @@ its rate is an upper bound and no result. `edi` and `complementary` need intensi
 
 Every method got {-(-64 // plan.every_cell)} cells, the same flights (dim, {plan.tuning_s} s, seeds {listed(plan.tuning)}; of each {tuning_part(plan)}) and the same filters: none, a
 median of 3x3, a Gaussian of 0.7 px, and that with background filter and polarity balance (scripts/reproduce/tuning_grids.json;
-`esi-adaptive` has the balance in all of its cells, since that is what it is). The best cell detects most frames of both
+`esi-adaptive` has the balance in all of its cells, since that is what it is; `reference` changes nothing for `edi-propagated`,
+half of whose cells are alike). The best cell detects most frames of both
 flights; at a tie the one that finds most tags, then the one with the smaller mean corner error. The logs are {logs("tuned")}.
 
 {tables.chosen(run)}
@@ -80,7 +81,7 @@ def setting(plan):
     options = " ".join(map(str, plan.options))
     return f"""Flights: configs/sim/flight-dim.json (10 lux on the scene), {plan.duration_s} s{", with " + options if options else ""}; \
 `--seed` and `--scene-seed` {listed(plan.scoring)} for scoring, {listed(plan.tuning)} for tuning.
-{plan.scoring_fps} frames a second are judged ({plan.scoring_fps * plan.duration_s} a flight; the paper judges 100 a second, but those 10 ms apart are
+{plan.scoring_fps} frames a second are judged ({plan.scoring_fps * plan.duration_s - 1} a flight; the paper judges 100 a second, but those 10 ms apart are
 alike), those of `edi` all. Detector: esi-eval's defaults (tag36h11,
 ids 0 and 1, at most one corrected bit, `quad_decimate` 1), a corner error of at most 5 px. "Defaults" are configs/recon, with
 the values of each method's authors, ESI's our own, since the paper gives none. Configs: {", ".join(f"`{name}`" for name in AT_FPS)}, `edi`."""
@@ -106,7 +107,7 @@ def logs(where):
 
 def tuning_part(plan):
     begin_s, end_s, fps = plan.tuning_part
-    return f"{begin_s} to {end_s} s, {fps} frames a second, {(end_s - begin_s) * fps} frames; `edi` has one per intensity frame"
+    return f"{begin_s} to {end_s} s, {fps} frames a second, {(end_s - begin_s) * fps - 1} frames; `edi` has one per intensity frame"
 
 
 def listed(seeds):

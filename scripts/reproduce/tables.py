@@ -188,10 +188,9 @@ def chosen(run, where="tuned"):
         if log.exists():
             best = tuning.best_cell(log)
             cells = {row["cell"]: row for row in rows_of(log.parent, log.name)}
-            plain = max((row for row in cells.values() if row["cell"].endswith("_filter-plain")),
-                        key=lambda row: tuned_rate(row, where))
-            rows.append([method, f"`{best}`", percent([tuned_rate(cells[best], where)]), f"`{plain['cell']}`",
-                         percent([tuned_rate(plain, where)])])
+            plain = tuning.best_cell(log, "_filter-plain")
+            rows.append([method, *(text for cell in (best, plain)
+                                   for text in (f"`{cell}`", percent([tuned_rate(cells[cell], where)])))])
     return markdown(["method", "best cell", "its rate there", "best without filter", "its rate there"], rows)
 
 

@@ -52,14 +52,14 @@ def options_of(method, options):
     return options[:at] + options[at + 2:]
 
 
-def best_cell(log):
-    """Most detected frames, then most tags (the other way round where truth has no corners and a frame many tags),
+def best_cell(log, ending=""):
+    """Of cells whose name ends so: most detected frames, then most tags (the other way round where truth has no corners and a frame many tags),
     then the smaller corner error."""
     def rank(row):
         found = int(row["detected"]), int(row["tags_found"])
         return found[::-1] if not row["corner_error_mean_px"] else found, -float(row["corner_error_mean_px"] or 0)
 
-    return max(rows_of(log.parent, log.name), key=rank)["cell"]
+    return max((row for row in rows_of(log.parent, log.name) if row["cell"].endswith(ending)), key=rank)["cell"]
 
 
 def write_log(path, reports, flights):
