@@ -30,7 +30,7 @@ class EventWindows {
   /// come.
   void end_by(std::int64_t t_us, const Take& take);
 
-  /// k of the window of time that t_us lies in.
+  /// k of the window that t_us lies in. Windows of a number of events have none.
   std::int64_t index_of(std::int64_t t_us) const;
 
  private:

@@ -24,8 +24,8 @@ class CellGrid {
  private:
   double cell_px_;
   int cols_, rows_;
-  std::vector<int>
-      begins_;  ///< the pixel columns where a next entry of line_ is the one left of them; their end
+  /// Where pixel columns begin that lie between the same two entries of line_, and the image's width.
+  std::vector<int> begins_;
   std::vector<float> share_;  ///< of each pixel column: how near it is to the entry right of it
   std::vector<float> line_;   ///< one row of cells, the first and the last of them twice
 };

@@ -7,9 +7,6 @@
 namespace esi {
 namespace {
 
-/// Where there is nothing left to improve.
-constexpr double kNothing = 1e-30;
-
 /// y += factor x
 ESI_SIMD void add_scaled(int count, float factor, const float* __restrict x, float* __restrict y) {
   for (int i = 0; i < count; ++i) y[i] += factor * x[i];

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "esi/recon/flow/row_sums.hpp"
+
 namespace esi {
 namespace {
 
-/// Where there is nothing left to improve.
-constexpr double kNothing = 1e-30;
 /// Of a vector's energy, what must be left of it without the vectors before it: its entries are floats.
 constexpr double kLeastNew = 1e-6;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "esi/recon/flow/half_size.hpp"
 #include "esi/recon/flow/row_sums.hpp"
 #include "esi/recon/simd.hpp"
 

@@ -14,9 +14,6 @@ ESI_SIMD void subtract_from(int count, const float* __restrict x, float* __restr
   for (int i = 0; i < count; ++i) y[i] = x[i] - y[i];
 }
 
-/// Where there is nothing left to improve, or no direction to do it in.
-constexpr double kNothing = 1e-30;
-
 }  // namespace
 
 MultilevelSolver::MultilevelSolver(cv::Size size, const Options& options) {

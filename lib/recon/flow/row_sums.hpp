@@ -4,6 +4,9 @@
 
 namespace esi {
 
+/// An energy, or a residual's product with itself, below which there is nothing left to improve.
+constexpr double kNothing = 1e-30;
+
 /// Of sums side by side, which are vectorised without reordering.
 inline double sum_of(const float (&sums)[kVectorFloats]) {
   double sum = 0.0;
