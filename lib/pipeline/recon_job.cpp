@@ -93,8 +93,10 @@ ReconReport run_job(const ReconJob& job, const ReconConfig& config, const Observ
                               sensor.value_or(report.size), config.frames.region()});
   const nlohmann::json effective = config.json();
   const std::string fingerprint = fingerprint_of(job, effective, method.files_json());
+  const auto workers = std::make_shared<WorkerPool>(job.threads - 1);
+  method.reconstructor().use_workers(workers);
   const auto sink = open_sink(job, config, method.reconstructor(),
-                              {report.size, config.frames.video_fps(), job.threads, fingerprint});
+                              {report.size, config.frames.video_fps(), fingerprint, workers});
 
   report.result =
       reconstruct(source, *schedule, method.reconstructor(), *sink, config.frames.max_frames, name, observer);

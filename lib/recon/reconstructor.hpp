@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <span>
 
 #include "esi/core/event.hpp"
 #include "esi/core/frame.hpp"
+#include "esi/core/worker_pool.hpp"
 
 namespace esi {
 
@@ -33,6 +35,10 @@ class Reconstructor {
   /// How the image moves where the last frame was made: px per second, right and down, at every pixel.
   /// nullptr for methods that don't estimate motion, which is so from the first call on.
   virtual const cv::Mat2f* motion() { return nullptr; }
+
+  /// Lends the workers of a pool that belongs to the calling thread, as this method does. The results are the
+  /// same. Methods that have no use for them ignore it.
+  virtual void use_workers(std::shared_ptr<WorkerPool> /*workers*/) {}
 
  private:
   virtual void take(std::span<const Event> events, std::span<const float> weights) = 0;

@@ -1,10 +1,13 @@
-// What the parts of esi-flow cost, at two sensor sizes, beside the least memory traffic that each needs.
+// What the parts of esi-flow cost, at two sensor sizes, beside the least memory traffic that each needs: the
+// thread's processor time. Then what passes on the clock with one thread and with two, run in turn: the
+// least, which other work on the machine disturbs less than the median.
 //   build/release/bin/bench_flow
 
 #include <fmt/format.h>
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <random>
 #include <string>
@@ -53,14 +56,22 @@ std::vector<esi::Event> window_of(esi::SensorSize size, std::int64_t begin_us, s
 struct Part {
   std::string name;
   double planes;  ///< read or written at least, of 4 bytes a pixel
-  std::function<void()> work;
+  std::function<void(const esi::RowTeam& team)> work;
 };
+
+std::shared_ptr<esi::WorkerPool> one_worker() { return std::make_shared<esi::WorkerPool>(1); }
+
+void print_clock(const std::string& name, const std::vector<double>& one, const std::vector<double>& two) {
+  const double one_ms = 1e3 * esi::bench::least(one);
+  const double two_ms = 1e3 * esi::bench::least(two);
+  fmt::print("  {:28} {:8.3f} ms   {:8.3f} ms   {:5.2f}\n", name, one_ms, two_ms, one_ms / two_ms);
+}
 
 void measure(const std::vector<Part>& parts, cv::Size size, double gb_s) {
   std::vector<std::vector<double>> times(parts.size());
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      times[i].push_back(esi::bench::seconds(parts[i].work));
+      times[i].push_back(esi::bench::seconds([&] { parts[i].work(esi::kAlone); }));
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -69,6 +80,52 @@ void measure(const std::vector<Part>& parts, cv::Size size, double gb_s) {
     fmt::print("  {:28} {:8.3f} ms   {:5.1f} planes: {:7.3f} ms at least\n", parts[i].name, ms,
                parts[i].planes, least_ms);
   }
+}
+
+void measure_by_clock(const std::vector<Part>& parts) {
+  esi::RowTeam team;
+  team.use(one_worker());
+  std::vector<std::vector<double>> one(parts.size()), two(parts.size());
+  for (int round = 0; round < 2 * kRounds; ++round) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      parts[i].work(esi::kAlone);
+      one[i].push_back(esi::bench::wall_seconds([&] { parts[i].work(esi::kAlone); }));
+      const auto shift = team.begin_shift();
+      parts[i].work(team);  // in the meantime the worker comes
+      two[i].push_back(esi::bench::wall_seconds([&] { parts[i].work(team); }));
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) print_clock(parts[i].name, one[i], two[i]);
+}
+
+/// Frames of the whole method, in turn with one thread and with two.
+void measure_frames(esi::SensorSize sensor, std::mt19937& random) {
+  const esi::EsiFlowOptions options;
+  esi::EsiFlow one(options, sensor);
+  esi::EsiFlow two(options, sensor);
+  two.use_workers(one_worker());
+  cv::Mat1b grey;
+  std::vector<double> cpu, clock, clock_two;
+  for (std::int64_t i = 0; i < options.first_windows + 2 * kRounds; ++i) {
+    const std::int64_t begin_us = i * options.window_us;
+    const auto window = window_of(sensor, begin_us, random);
+    const auto frame_of = [&](esi::EsiFlow& whole) {
+      whole.process(window);
+      whole.render(begin_us + options.window_us, grey);
+    };
+    double cpu_s = 0.0;
+    const double one_s =
+        esi::bench::wall_seconds([&] { cpu_s = esi::bench::seconds([&] { frame_of(one); }); });
+    const double two_s = esi::bench::wall_seconds([&] { frame_of(two); });
+    if (i < options.first_windows) continue;
+    cpu.push_back(cpu_s);
+    clock.push_back(one_s);
+    clock_two.push_back(two_s);
+  }
+  print_clock("a whole frame", clock, clock_two);
+  fmt::print("  {:28} {:8.3f} ms of processor time, {:.3f} and {:.3f} ms on the clock\n", "medians of frames",
+             1e3 * esi::bench::median(cpu), 1e3 * esi::bench::median(clock),
+             1e3 * esi::bench::median(clock_two));
 }
 
 void compare(esi::SensorSize sensor) {
@@ -95,35 +152,25 @@ void compare(esi::SensorSize sensor) {
   const std::array pairs{esi::MovedPair{half_a, half_b, 1.0F, 1.0F},
                          esi::MovedPair{half_b, half_a, 1.0F, 1.0F}};
   const std::vector<Part> parts{
-      {"event image", 1.0, [&] { event_image.of(events, {}); }},
-      {"half size and Gaussian", 1.25, [&] { smooth(b, half_a); }},
+      {"event image", 1.0, [&](const esi::RowTeam&) { event_image.of(events, {}); }},
+      {"half size and Gaussian", 1.25, [&](const esi::RowTeam& team) { smooth(b, half_a, team); }},
       {"flow", 4 * 2 * 0.25,
-       [&] {
+       [&](const esi::RowTeam& team) {
          esi::MotionField warm{field.x.clone(), field.y.clone()};
-         motion.improve(pairs, warm);
+         motion.improve(pairs, warm, team);
        }},
-      {"warp and accumulate", 13.0, [&] { model.take(b, field, cells); }},
-      {"right-hand side", 3.0, [&] { model.right_hand_side(rhs); }},
+      {"warp and accumulate", 13.0, [&](const esi::RowTeam& team) { model.take(b, field, cells, team); }},
+      {"right-hand side", 3.0, [&](const esi::RowTeam& team) { model.right_hand_side(rhs, team); }},
       // The residual, the coarse A, the correction from below, then a basis that is written and summed.
       {"solver", 6.0 + 3.0 + 6.0 + 6.0 + 3.0 + 2.0 * static_cast<double>(options.steps_full),
-       [&] { solver.solve(model.normal_operator(), rhs, 1, model.log_intensity()); }},
+       [&](const esi::RowTeam& team) {
+         solver.solve(model.normal_operator(), rhs, 1, model.log_intensity(), team);
+       }},
   };
   measure(parts, size, gb_s);
-  esi::EsiFlow whole(options, sensor);
-  std::int64_t begin_us = 0;
-  cv::Mat1b grey;
-  const auto frame = [&] {
-    const auto window = window_of(sensor, begin_us, random);
-    begin_us += options.window_us;
-    return esi::bench::seconds([&] {
-      whole.process(window);
-      whole.render(begin_us, grey);
-    });
-  };
-  std::vector<double> times;
-  for (std::int64_t i = 0; i < options.first_windows; ++i) frame();
-  for (int i = 0; i < kRounds; ++i) times.push_back(frame());
-  fmt::print("  {:28} {:8.3f} ms\n", "a whole frame", 1e3 * esi::bench::median(times));
+  fmt::print("  on the clock, at least           1 thread     2 threads   ratio\n");
+  measure_by_clock(parts);
+  measure_frames(sensor, random);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "esi/core/event.hpp"
 #include "esi/core/frame.hpp"
 #include "esi/core/options.hpp"
+#include "esi/core/worker_pool.hpp"
 
 namespace esi {
 
@@ -25,8 +26,9 @@ struct SinkOptions {
 struct SinkContext {
   SensorSize size;
   double fps = 0;           ///< nominal rate of a video; 100 where frames are not at a fixed rate
-  int threads = 1;          ///< how many may encode
   std::string fingerprint;  ///< of input and options: what --resume compares
+  /// Who may encode beside the calling thread, to which the pool belongs.
+  std::shared_ptr<WorkerPool> workers = std::make_shared<WorkerPool>(0);
 };
 
 /// Whoever read the frames has closed the pipe: not a fault, but nothing more can be done (a tool exits with

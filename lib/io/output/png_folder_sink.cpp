@@ -27,7 +27,7 @@ PngFolderSink::PngFolderSink(const std::filesystem::path& folder, const SinkOpti
       lists_(folder),
       size_(context.size),
       png_level_(static_cast<int>(options.png_compression)),
-      workers_(context.threads - 1) {}
+      workers_(context.workers) {}
 
 void PngFolderSink::write(const Frame& frame) {
   require_no_failure();
@@ -35,13 +35,13 @@ void PngFolderSink::write(const Frame& frame) {
   ++frames_taken_;
   const auto path = folder_.frame_path(frame.index);
   const bool may_be_there = folder_.is_resumed();
-  const bool runs_here = workers_.workers() == 0;
+  const bool runs_here = workers_->workers() == 0;
   auto task = [path, may_be_there, size = size_, level = png_level_,
                grey = runs_here ? frame.grey : cv::Mat1b(frame.grey.clone())] {
     if (!may_be_there || !is_whole_png(path, size)) write_png(path, grey, level);
   };
-  pending_.push_back({{frame.index, frame.t_us, frame.events_since_previous, {}}, workers_.submit(task)});
-  while (pending_.size() > kFramesPerWorker * workers_.workers()) settle_oldest();
+  pending_.push_back({{frame.index, frame.t_us, frame.events_since_previous, {}}, workers_->submit(task)});
+  while (pending_.size() > kFramesPerWorker * workers_->workers()) settle_oldest();
 }
 
 void PngFolderSink::finish(const std::string& manifest) {
@@ -76,7 +76,7 @@ void PngFolderSink::settle_oldest() {
   pending_.pop_front();
   const bool follows_failure = has_failed_;
   has_failed_ = true;  // unless the next line returns
-  workers_.finish(std::move(oldest.written));
+  workers_->finish(std::move(oldest.written));
   has_failed_ = follows_failure;
   if (!has_failed_) lists_.add(oldest.frame);
 }

@@ -3,8 +3,8 @@
 #include <deque>
 #include <filesystem>
 #include <future>
+#include <memory>
 
-#include "esi/core/worker_pool.hpp"
 #include "esi/io/output/frame_lists.hpp"
 #include "esi/io/output/frame_sink.hpp"
 #include "esi/io/output/output_folder.hpp"
@@ -12,8 +12,8 @@
 namespace esi {
 
 /// A folder as contract.md describes it: a PNG file per frame, the lists of frames, run.json last.
-/// Frames are encoded by context.threads - 1 workers (and by this thread where it would wait); the lists hold
-/// only frames that are whole.
+/// Frames are encoded by context.workers (and by this thread where it would wait); the lists hold only frames
+/// that are whole.
 class PngFolderSink final : public FrameSink {
  public:
   PngFolderSink(const std::filesystem::path& folder, const SinkOptions& options, const SinkContext& context);
@@ -40,7 +40,7 @@ class PngFolderSink final : public FrameSink {
   std::int64_t frames_taken_ = 0;
   bool has_failed_ = false;
   std::deque<Pending> pending_;
-  WorkerPool workers_;
+  std::shared_ptr<WorkerPool> workers_;
 };
 
 }  // namespace esi

@@ -18,7 +18,7 @@ class PreviewOutput final : public SimOutput {
  public:
   PreviewOutput(const std::filesystem::path& folder, SensorSize size, double fps)
       : times_(fps),
-        video_(folder / "preview.mp4", SinkOptions{}, {video_size(size), fps, 1, ""}),
+        video_(folder / "preview.mp4", SinkOptions{}, {video_size(size), fps, ""}),
         picture_(video_size(size).height_px, video_size(size).width_px, std::uint8_t{0}),
         events_(picture_(cv::Rect(0, 0, size.width_px, size.height_px))),
         intensity_(picture_(cv::Rect(size.width_px, 0, size.width_px, size.height_px))) {

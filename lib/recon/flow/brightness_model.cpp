@@ -1,7 +1,9 @@
 #include "esi/recon/flow/brightness_model.hpp"
 
 #include <cmath>
+#include <vector>
 
+#include "esi/recon/flow/bilinear_row.hpp"
 #include "esi/recon/simd.hpp"
 
 namespace esi {
@@ -41,6 +43,22 @@ void repeat_last_corners(cv::Mat1f& corners) {
 
 }  // namespace
 
+/// How a row moves, and where its pixels come from.
+struct BrightnessModel::RowMotion {
+  RowMotion(cv::Size size, const CellGrid& over)
+      : cells(over), lookup(size), x(static_cast<std::size_t>(size.width)), y(x.size()), b(x.size()) {}
+
+  void look_up(const MotionField& field, int row, float share) {
+    cells.interpolate_row(field.x, row, share, x.data());
+    cells.interpolate_row(field.y, row, share, y.data());
+    lookup.place(row, x.data(), y.data(), 1.0F);
+  }
+
+  CellGrid cells;
+  BilinearRow lookup;
+  std::vector<float> x, y, b;
+};
+
 BrightnessModel::BrightnessModel(cv::Size size, const Options& options)
     : options_(options),
       operator_(size),
@@ -49,21 +67,20 @@ BrightnessModel::BrightnessModel(cv::Size size, const Options& options)
       log_intensity_(size, 0.0F),
       moved_d_(size, 0.0F),
       moved_e_(size, 0.0F),
-      moved_l_(size, 0.0F),
-      lookup_(size),
-      vx_(static_cast<std::size_t>(size.width)),
-      vy_(vx_.size()),
-      b_(vx_.size()) {
+      moved_l_(size, 0.0F) {
   operator_.eps = options.eps;
   operator_.mu = options.mu;
 }
 
-void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, CellGrid& cells) {
-  for (int y = 0; y < log_intensity_.rows; ++y) {
-    cells.interpolate_row(field.x, y, 1.0F, vx_.data());
-    cells.interpolate_row(field.y, y, 1.0F, vy_.data());
-    move_row(y, b);
-  }
+void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, const CellGrid& cells,
+                           const RowTeam& team) {
+  team.over_rows(log_intensity_.size(), [&](int begin, int end) {
+    RowMotion motion(log_intensity_.size(), cells);
+    for (int y = begin; y < end; ++y) {
+      motion.look_up(field, y, 1.0F);
+      move_row(y, b, motion);
+    }
+  });
   repeat_last_corners(moved_d_);
   repeat_last_corners(moved_e_);
   cv::swap(a_d_, moved_d_);
@@ -71,43 +88,49 @@ void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, CellGri
   cv::swap(log_intensity_, moved_l_);
 }
 
-void BrightnessModel::move_row(int y, const cv::Mat1f& b) {
-  lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
-  lookup_.sample(log_intensity_, moved_l_[y]);
+void BrightnessModel::move_row(int y, const cv::Mat1f& b, RowMotion& motion) {
+  const float* const vx = motion.x.data();
+  const float* const vy = motion.y.data();
+  motion.lookup.sample(log_intensity_, moved_l_[y]);
   if (y + 1 == log_intensity_.rows) return;
-  lookup_.sample(a_d_, moved_d_[y]);
-  lookup_.sample(a_e_, moved_e_[y]);
-  lookup_.place(y, vx_.data(), vy_.data(), 0.5F, 0.5F);
-  lookup_.sample(b, b_.data());
-  accumulate(log_intensity_.cols - 1, vx_.data(), vy_.data(), b_.data(), options_.memory,
-             1.0F / options_.memory_px, options_.weight, operator_.dd[y], operator_.de[y], operator_.ee[y],
-             moved_d_[y], moved_e_[y]);
+  motion.lookup.sample(a_d_, moved_d_[y]);
+  motion.lookup.sample(a_e_, moved_e_[y]);
+  motion.lookup.place(y, vx, vy, 0.5F, 0.5F);
+  motion.lookup.sample(b, motion.b.data());
+  accumulate(log_intensity_.cols - 1, vx, vy, motion.b.data(), options_.memory, 1.0F / options_.memory_px,
+             options_.weight, operator_.dd[y], operator_.de[y], operator_.ee[y], moved_d_[y], moved_e_[y]);
 }
 
-void BrightnessModel::move_image(const MotionField& field, CellGrid& cells, float share, cv::Mat1f& moved) {
+void BrightnessModel::move_image(const MotionField& field, const CellGrid& cells, float share,
+                                 cv::Mat1f& moved, const RowTeam& team) const {
   moved.create(log_intensity_.size());
-  for (int y = 0; y < moved.rows; ++y) {
-    cells.interpolate_row(field.x, y, share, vx_.data());
-    cells.interpolate_row(field.y, y, share, vy_.data());
-    lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
-    lookup_.sample(log_intensity_, moved[y]);
-  }
+  team.over_rows(moved.size(), [&](int begin, int end) {
+    RowMotion motion(moved.size(), cells);
+    for (int y = begin; y < end; ++y) {
+      motion.look_up(field, y, share);
+      motion.lookup.sample(log_intensity_, moved[y]);
+    }
+  });
 }
 
-void BrightnessModel::right_hand_side(cv::Mat1f& rhs) const {
+void BrightnessModel::right_hand_side(cv::Mat1f& rhs, const RowTeam& team) const {
   rhs.create(a_d_.size());
   // Outside there are no corners.
   const cv::Mat1f none(1, rhs.cols, 0.0F);
+  team.over_rows(rhs.size(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) right_hand_side_row(y, none[0], rhs);
+  });
+}
+
+void BrightnessModel::right_hand_side_row(int y, const float* none, cv::Mat1f& rhs) const {
   const int last = rhs.cols - 1;
-  for (int y = 0; y < rhs.rows; ++y) {
-    const float* const above_d = y > 0 ? a_d_[y - 1] : none[0];
-    const float* const above_e = y > 0 ? a_e_[y - 1] : none[0];
-    const float* const below_d = y + 1 < rhs.rows ? a_d_[y] : none[0];
-    const float* const below_e = y + 1 < rhs.rows ? a_e_[y] : none[0];
-    minus_divergence(1, last, above_d, above_e, below_d, below_e, rhs[y]);
-    rhs(y, last) = last > 0 ? above_d[last - 1] + below_e[last - 1] : 0.0F;
-    rhs(y, 0) = last > 0 ? -below_d[0] - above_e[0] : 0.0F;
-  }
+  const float* const above_d = y > 0 ? a_d_[y - 1] : none;
+  const float* const above_e = y > 0 ? a_e_[y - 1] : none;
+  const float* const below_d = y + 1 < rhs.rows ? a_d_[y] : none;
+  const float* const below_e = y + 1 < rhs.rows ? a_e_[y] : none;
+  minus_divergence(1, last, above_d, above_e, below_d, below_e, rhs[y]);
+  rhs(y, last) = last > 0 ? above_d[last - 1] + below_e[last - 1] : 0.0F;
+  rhs(y, 0) = last > 0 ? -below_d[0] - above_e[0] : 0.0F;
 }
 
 }  // namespace esi

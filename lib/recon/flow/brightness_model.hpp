@@ -1,9 +1,8 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
-#include <vector>
 
-#include "esi/recon/flow/bilinear_row.hpp"
+#include "esi/core/row_team.hpp"
 #include "esi/recon/flow/cell_grid.hpp"
 #include "esi/recon/flow/motion_estimator.hpp"
 #include "esi/recon/flow/motion_operator.hpp"
@@ -29,28 +28,31 @@ class BrightnessModel {
   /// Takes a window of events b that moved by `field`:
   ///   A <- lambda A + weight v v^T,   a <- lambda a(x - v) - weight v b(x - v/2),   L <- L(x - v),
   ///   lambda = memory / (1 + |v| / memory_px)                                                     (5)
-  void take(const cv::Mat1f& b, const MotionField& field, CellGrid& cells);
+  void take(const cv::Mat1f& b, const MotionField& field, const CellGrid& cells,
+            const RowTeam& team = kAlone);
 
   /// The problem's right-hand side: minus the divergence of a.
-  void right_hand_side(cv::Mat1f& rhs) const;
+  void right_hand_side(cv::Mat1f& rhs, const RowTeam& team = kAlone) const;
 
   /// The image as it will be after `share` of a window's motion.
-  void move_image(const MotionField& field, CellGrid& cells, float share, cv::Mat1f& moved);
+  void move_image(const MotionField& field, const CellGrid& cells, float share, cv::Mat1f& moved,
+                  const RowTeam& team = kAlone) const;
 
   MotionOperator& normal_operator() { return operator_; }
 
   cv::Mat1f& log_intensity() { return log_intensity_; }
 
  private:
-  void move_row(int y, const cv::Mat1f& b);
+  struct RowMotion;
+
+  void move_row(int y, const cv::Mat1f& b, RowMotion& motion);
+  void right_hand_side_row(int y, const float* none, cv::Mat1f& rhs) const;
 
   Options options_;
   MotionOperator operator_;
   cv::Mat1f a_d_, a_e_;  ///< a = (a_d + a_e, a_d - a_e): a . grad L = a_d D + a_e E
   cv::Mat1f log_intensity_;
   cv::Mat1f moved_d_, moved_e_, moved_l_;
-  BilinearRow lookup_;
-  std::vector<float> vx_, vy_, b_;
 };
 
 }  // namespace esi

@@ -84,9 +84,10 @@ EventWindows::Take EsiFlow::step() {
 }
 
 void EsiFlow::take_window(std::span<const Event> window, std::span<const float> weights) {
+  const auto shift = team_.begin_shift();
   const std::int64_t index = windows_.index_of(window.front().t_us);
   const cv::Mat1f& b = event_image_.of(window, weights);
-  smooth_(b, events_);
+  smooth_(b, events_, team_);
   if (last_window_ && index != *last_window_ + 1) {
     // Nothing has happened since: nothing moved.
     events_before_.setTo(0.0F);
@@ -100,13 +101,13 @@ void EsiFlow::take_window(std::span<const Event> window, std::span<const float> 
     estimate_motion();
   }
   events_.copyTo(events_before_);
-  model_.take(b, field_, cells_);
-  model_.right_hand_side(rhs_);
+  model_.take(b, field_, cells_, team_);
+  model_.right_hand_side(rhs_, team_);
   const bool is_early = windows_seen_ < options_.first_windows;
   solver_.solve(
       model_.normal_operator(), rhs_,
       static_cast<int>(is_early ? std::max(options_.first_cycles, options_.cycles) : options_.cycles),
-      model_.log_intensity());
+      model_.log_intensity(), team_);
   ++windows_seen_;
 }
 
@@ -123,17 +124,17 @@ void EsiFlow::estimate_first_motion() {
   }
   const MovedPair pair{before, after, static_cast<float>(options_.event_pair_weight),
                        static_cast<float>(half)};
-  motion_.improve({&pair, 1}, field_);
+  motion_.improve({&pair, 1}, field_, team_);
 }
 
 void EsiFlow::estimate_motion() {
   first_events_.clear();
-  smooth_(model_.log_intensity(), intensity_before_);
+  smooth_(model_.log_intensity(), intensity_before_, team_);
   cv::add(intensity_before_, events_, intensity_after_);
   const std::array pairs{
       MovedPair{intensity_before_, intensity_after_, 1.0F, 1.0F},
       MovedPair{events_before_, events_, static_cast<float>(options_.event_pair_weight), 1.0F}};
-  motion_.improve(pairs, field_);
+  motion_.improve(pairs, field_, team_);
 }
 
 const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {
@@ -144,7 +145,7 @@ const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {
   if (!goes_on || passed_us == 0) return model_.log_intensity();
   const auto share =
       static_cast<float>(static_cast<double>(passed_us) / static_cast<double>(options_.window_us));
-  model_.move_image(field_, cells_, share, moved_on_);
+  model_.move_image(field_, cells_, share, moved_on_, team_);
   return moved_on_;
 }
 
@@ -162,8 +163,9 @@ const cv::Mat2f* EsiFlow::motion() {
 }
 
 void EsiFlow::render_levels(std::int64_t t_us, cv::Mat1f& levels) {
+  const auto shift = team_.begin_shift();
   windows_.end_by(t_us, step());
-  grey_levels(image_at(t_us), options_.contrast_deviations, levels);
+  grey_levels(image_at(t_us), options_.contrast_deviations, levels, team_);
 }
 
 }  // namespace esi

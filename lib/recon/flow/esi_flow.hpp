@@ -8,6 +8,7 @@
 
 #include "esi/core/event.hpp"
 #include "esi/core/options.hpp"
+#include "esi/core/row_team.hpp"
 #include "esi/recon/event_windows.hpp"
 #include "esi/recon/flow/brightness_model.hpp"
 #include "esi/recon/flow/event_image.hpp"
@@ -52,6 +53,7 @@ class EsiFlow final : public Reconstructor {
 
   void render_levels(std::int64_t t_us, cv::Mat1f& levels) override;
   const cv::Mat2f* motion() override;
+  void use_workers(std::shared_ptr<WorkerPool> workers) override { team_.use(std::move(workers)); }
 
  private:
   void take(std::span<const Event> events, std::span<const float> weights) override;
@@ -63,6 +65,7 @@ class EsiFlow final : public Reconstructor {
   const cv::Mat1f& image_at(std::int64_t t_us);
 
   EsiFlowOptions options_;
+  RowTeam team_;
   EventWindows windows_;
   EventImage event_image_;
   SmoothHalf smooth_;

@@ -1,6 +1,8 @@
 #include "esi/recon/flow/grey_levels.hpp"
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "esi/recon/flow/row_sums.hpp"
 #include "esi/recon/simd.hpp"
@@ -25,16 +27,14 @@ ESI_SIMD double squares_about(float centre, const float* __restrict row, int col
   return rest + sum_of(sums);
 }
 
-float mean_of(const cv::Mat1f& image) {
-  double total = 0.0;
-  for (int y = 0; y < image.rows; ++y) total += sum(image[y], image.cols);
-  return static_cast<float>(total / static_cast<double>(image.total()));
-}
-
-float deviation_about(float mean, const cv::Mat1f& image) {
-  double squares = 0.0;
-  for (int y = 0; y < image.rows; ++y) squares += squares_about(mean, image[y], image.cols);
-  return static_cast<float>(std::sqrt(squares / static_cast<double>(image.total())));
+/// Of a number that each row has, over all pixels.
+template <class OfRow>
+double mean_of_rows(const cv::Mat1f& image, const RowTeam& team, const OfRow& of_row) {
+  std::vector<double> sums(static_cast<std::size_t>(image.rows));
+  team.over_rows(image.size(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) sums[static_cast<std::size_t>(y)] = of_row(image[y]);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(image.total());
 }
 
 ESI_SIMD void scale_row(int cols, float gain, float offset, const float* __restrict in,
@@ -44,17 +44,24 @@ ESI_SIMD void scale_row(int cols, float gain, float offset, const float* __restr
 
 }  // namespace
 
-void grey_levels(const cv::Mat1f& log_intensity, double contrast_deviations, cv::Mat1f& levels) {
+void grey_levels(const cv::Mat1f& log_intensity, double contrast_deviations, cv::Mat1f& levels,
+                 const RowTeam& team) {
   levels.create(log_intensity.size());
-  const float mean = mean_of(log_intensity);
-  const float deviation = deviation_about(mean, log_intensity);
+  const int cols = log_intensity.cols;
+  const auto mean = static_cast<float>(
+      mean_of_rows(log_intensity, team, [cols](const float* row) { return sum(row, cols); }));
+  const double variance =
+      mean_of_rows(log_intensity, team, [=](const float* row) { return squares_about(mean, row, cols); });
+  const auto deviation = static_cast<float>(std::sqrt(variance));
   if (deviation < kLeastDeviation) {
     levels.setTo(kNeutral);
     return;
   }
   const float gain = kNeutral / (static_cast<float>(contrast_deviations) * deviation);
-  for (int y = 0; y < levels.rows; ++y)
-    scale_row(levels.cols, gain, kNeutral - gain * mean, log_intensity[y], levels[y]);
+  team.over_rows(levels.size(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      scale_row(cols, gain, kNeutral - gain * mean, log_intensity[y], levels[y]);
+  });
 }
 
 }  // namespace esi

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "esi/recon/flow/padded_plane.hpp"
+#include "esi/recon/flow/row_stages.hpp"
 #include "esi/recon/flow/row_sums.hpp"
 #include "esi/recon/simd.hpp"
 
@@ -80,72 +81,98 @@ bool loses_itself(cv::Size size, int steps) {
 
 }  // namespace
 
+/// What a part of the work needs for itself.
+struct KrylovSteps::LatestRows {
+  explicit LatestRows(int cols)
+      : inverses(padded_plane({cols, kMostAtOnce + 1})), product(padded_plane({cols, 1})) {}
+
+  float* inverse(int y) { return inverses[y % inverses.rows]; }
+
+  cv::Mat1f inverses;  ///< of the diagonal
+  cv::Mat1f product;   ///< a row of M z_k
+};
+
 KrylovSteps::KrylovSteps(cv::Size size, int steps)
     : one_by_one_(loses_itself(size, steps) ? steps : 0),
-      conjugate_gradients_(one_by_one_ > 0 ? size : cv::Size(1, 1)),
-      inverse_(padded_plane({size.width, kMostAtOnce + 1})),
-      product_(padded_plane({size.width, 1})) {
+      conjugate_gradients_(one_by_one_ > 0 ? size : cv::Size(1, 1)) {
   for (int k = 0; k < steps - one_by_one_; ++k) basis_.push_back(padded_plane(size));
-  products_.resize(basis_.size());
+  row_products_.resize(static_cast<std::size_t>(size.height) * basis_.size());
 }
 
 void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, const FirstStep& first,
-                         cv::Mat1f& residual) {
-  make_basis(normal, first, residual);
-  add_basis(solution, first);
+                         cv::Mat1f& residual, const RowTeam& team) {
+  make_basis(normal, first, residual, team);
+  add_basis(solution, first, team);
   if (one_by_one_ > 0) conjugate_gradients_.add_steps(normal, one_by_one_, residual, solution);
 }
 
-void KrylovSteps::add_basis(cv::Mat1f& sum, const FirstStep& first) const {
-  std::vector<float> factors = least_energy_factors(products_);
+void KrylovSteps::add_basis(cv::Mat1f& sum, const FirstStep& first, const RowTeam& team) const {
+  std::vector<float> factors = least_energy_factors(products());
   factors.push_back(first.length);
-  std::vector<const float*> rows(factors.size());
-  for (int y = 0; y < sum.rows; ++y) {
-    for (std::size_t k = 0; k < products_.size(); ++k) rows[k] = basis_[k][y];
-    rows.back() = first.direction[y];
-    add_combination(sum.cols, static_cast<int>(rows.size()), factors.data(), rows.data(), sum[y]);
-  }
-}
-
-void KrylovSteps::make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual) {
-  std::fill(products_.begin(), products_.end(), KrylovProducts{});
-  const auto count = static_cast<int>(basis_.size());
-  for (int begin = 0; begin < residual.rows + count; ++begin) {
-    if (begin < residual.rows) {
-      take_out(padded(residual.cols), first.length, first.product[begin], residual[begin]);
-      if (count > 0) make_first_row(normal, residual, begin);
+  team.over_rows(sum.size(), [&](int begin, int end) {
+    std::vector<const float*> rows(factors.size());
+    for (int y = begin; y < end; ++y) {
+      for (std::size_t k = 0; k < basis_.size(); ++k) rows[k] = basis_[k][y];
+      rows.back() = first.direction[y];
+      add_combination(sum.cols, static_cast<int>(rows.size()), factors.data(), rows.data(), sum[y]);
     }
-    // z_k follows a row behind z_(k-1).
-    for (int k = 1; k <= count; ++k) {
-      const int y = begin - k;
-      if (y >= 0 && y < residual.rows) make_next_row(normal, residual, k, y);
-    }
+  });
+}
+
+std::vector<KrylovProducts> KrylovSteps::products() const {
+  std::vector<KrylovProducts> sums(basis_.size());
+  for (std::size_t i = 0; i < row_products_.size(); ++i) {
+    KrylovProducts& sum = sums[i % sums.size()];
+    sum.own += row_products_[i].own;
+    sum.next += row_products_[i].next;
+    sum.residual += row_products_[i].residual;
   }
+  return sums;
 }
 
-void KrylovSteps::make_first_row(const MotionOperator& normal, const cv::Mat1f& residual, int y) {
-  normal.inverse_diagonal_row(y, inverse_row(y));
-  products_[0].residual += first_row(padded(residual.cols), inverse_row(y), residual[y], basis_[0][y]);
+void KrylovSteps::make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual,
+                             const RowTeam& team) {
+  const int cols = residual.cols;
+  const auto piece = [&]() -> StageRow {
+    return [&, rows = LatestRows(cols)](int k, int y) mutable {
+      if (k > 0) return make_next_row(normal, rows.inverse(y), residual, k, y, rows.product[0]);
+      take_out(padded(cols), first.length, first.product[y], residual[y]);
+      if (basis_.empty()) return;
+      normal.inverse_diagonal_row(y, rows.inverse(y));
+      make_first_row(rows.inverse(y), residual, y);
+    };
+  };
+  const auto seam = [&]() -> StageRow {
+    return [&, rows = LatestRows(cols)](int k, int y) mutable {
+      normal.inverse_diagonal_row(y, rows.inverse(y));
+      make_next_row(normal, rows.inverse(y), residual, k, y, rows.product[0]);
+    };
+  };
+  over_stages(team, residual.size(), static_cast<int>(basis_.size()) + 1, piece, seam);
 }
 
-void KrylovSteps::make_next_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y) {
+void KrylovSteps::make_first_row(const float* inverse, const cv::Mat1f& residual, int y) {
+  products_of(y, 0).residual = first_row(padded(residual.cols), inverse, residual[y], basis_[0][y]);
+}
+
+void KrylovSteps::make_next_row(const MotionOperator& normal, const float* inverse, const cv::Mat1f& residual,
+                                int k, int y, float* product) {
   const int cols = padded(residual.cols);
   const auto own = static_cast<std::size_t>(k);
   const cv::Mat1f& last = basis_[own - 1];
-  KrylovProducts& products = products_[own - 1];
-  float* const product = product_[0];
+  KrylovProducts& products = products_of(y, own - 1);
   normal.apply_row(last, y, product);
-  if (own == products_.size()) {
-    products.own += dot(product, last[y], cols);
+  if (own == basis_.size()) {
+    products.own = dot(product, last[y], cols);
     return;
   }
   const cv::Mat1f& before = basis_[own - std::min(own, std::size_t{2})];
   double sums[3] = {};
-  next_row(cols, k == 1 ? 1.0F : 2.0F, k == 1 ? 0.0F : 1.0F, inverse_row(y), residual[y], product, before[y],
+  next_row(cols, k == 1 ? 1.0F : 2.0F, k == 1 ? 0.0F : 1.0F, inverse, residual[y], product, before[y],
            last[y], basis_[own][y], sums);
-  products.own += sums[0];
-  products.next += sums[1];
-  products_[own].residual += sums[2];
+  products.own = sums[0];
+  products.next = sums[1];
+  products_of(y, own).residual = sums[2];
 }
 
 }  // namespace esi

@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "esi/core/row_team.hpp"
 #include "esi/recon/flow/conjugate_gradients.hpp"
 #include "esi/recon/flow/krylov_products.hpp"
 #include "esi/recon/flow/motion_operator.hpp"
@@ -29,24 +30,32 @@ class KrylovSteps {
 
   /// Adds to `solution` the first step and what the others make of the residual then. `residual` is a padded
   /// plane, and is used up.
-  void add_to(cv::Mat1f& solution, const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual);
+  void add_to(cv::Mat1f& solution, const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual,
+              const RowTeam& team = kAlone);
 
  private:
+  struct LatestRows;
+
   /// Takes the first step out of the residual on the way.
-  void make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual);
-  void make_first_row(const MotionOperator& normal, const cv::Mat1f& residual, int y);
-  /// Row y of z_k, unless that is one too many, and what M z_(k-1) gives to the products there.
-  void make_next_row(const MotionOperator& normal, const cv::Mat1f& residual, int k, int y);
+  void make_basis(const MotionOperator& normal, const FirstStep& first, cv::Mat1f& residual,
+                  const RowTeam& team);
+  void make_first_row(const float* inverse, const cv::Mat1f& residual, int y);
+  /// Row y of z_k, unless that is one too many, and what M z_(k-1), which goes to `product`, gives to the
+  /// products there.
+  void make_next_row(const MotionOperator& normal, const float* inverse, const cv::Mat1f& residual, int k,
+                     int y, float* product);
   /// sum += the first step and the combination of least energy
-  void add_basis(cv::Mat1f& sum, const FirstStep& first) const;
-  float* inverse_row(int y) { return inverse_[y % inverse_.rows]; }
+  void add_basis(cv::Mat1f& sum, const FirstStep& first, const RowTeam& team) const;
+  /// The sum of all rows' products, in their order.
+  std::vector<KrylovProducts> products() const;
+  KrylovProducts& products_of(int y, std::size_t k) {
+    return row_products_[static_cast<std::size_t>(y) * basis_.size() + k];
+  }
 
   int one_by_one_;
   ConjugateGradients conjugate_gradients_;
   std::vector<cv::Mat1f> basis_;
-  std::vector<KrylovProducts> products_;
-  cv::Mat1f inverse_;  ///< diagonal: its latest rows
-  cv::Mat1f product_;  ///< a row of M z_k
+  std::vector<KrylovProducts> row_products_;  ///< by row, then by vector
 };
 
 }  // namespace esi

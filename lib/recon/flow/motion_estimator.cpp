@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "esi/recon/flow/bilinear_row.hpp"
 #include "esi/recon/flow/cell_smoothing.hpp"
 #include "esi/recon/simd.hpp"
 
@@ -46,22 +47,43 @@ void take_median(cv::Mat1f& cells) {
 
 }  // namespace
 
+/// The latest three rows of a pair after compensation, row y at y % 3.
+struct MotionEstimator::Compared {
+  cv::Mat1f mean, difference;
+};
+
+/// What is needed while rows are gone over.
+struct MotionEstimator::Strip {
+  Strip(cv::Size half, const CellGrid& over, std::size_t pairs) : cells(over), lookup(half) {
+    const auto cols = static_cast<std::size_t>(half.width);
+    for (auto* row : {&vx, &vy, &moved}) row->resize(cols);
+    for (auto& column : columns) column.resize(cols);
+    for (std::size_t i = 0; i < pairs; ++i)
+      compared.push_back({cv::Mat1f(3, half.width), cv::Mat1f(3, half.width)});
+  }
+
+  CellGrid cells;
+  BilinearRow lookup;
+  std::vector<Compared> compared;
+  std::array<std::vector<float>, 5> columns;  ///< the sums of one row of cells, by pixel column
+  std::vector<float> vx, vy, moved;
+};
+
 MotionEstimator::MotionEstimator(cv::Size full, const Options& options)
     : options_(options),
       half_((full.width + 1) / 2, (full.height + 1) / 2),
-      cells_(half_, options.cell_px / static_cast<double>(kHalf)),
-      lookup_(half_) {
-  const auto cols = static_cast<std::size_t>(half_.width);
-  for (auto* row : {&vx_, &vy_, &moved_}) row->resize(cols);
-  for (auto& column : columns_) column.resize(cols);
+      cells_(half_, options.cell_px / static_cast<double>(kHalf)) {
   for (cv::Mat1f& sum : sums_) sum.create(cells_.size());
   for (int x = 0; x < half_.width; ++x) column_cells_.push_back(cells_.cell_of(x));
+  for (int y = 0; y < half_.height; ++y)
+    if (y == 0 || cells_.cell_of(y) != cells_.cell_of(y - 1)) cell_begins_.push_back(y);
+  cell_begins_.push_back(half_.height);
 }
 
-void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& field) {
+void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& field, const RowTeam& team) {
   for (int round = 0; round < options_.rounds; ++round) {
     for (cv::Mat1f& sum : sums_) sum.setTo(0.0F);
-    add_terms_of(pairs, field);
+    add_terms_of(pairs, field, team);
     for (cv::Mat1f& sum : sums_) {
       smooth_cells(sum);
       smooth_cells(sum);
@@ -72,50 +94,63 @@ void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& fie
   take_median(field.y);
 }
 
-void MotionEstimator::add_terms_of(std::span<const MovedPair> pairs, const MotionField& field) {
-  compared_.resize(pairs.size());
-  for (Compared& pair : compared_) {
-    pair.mean.create(3, half_.width);
-    pair.difference.create(3, half_.width);
-  }
-  for (int y = 0; y < half_.height; ++y) {
-    compensate_row(pairs, field, y);
-    const int middle = y - 1;
-    if (middle < 1) continue;
-    for (std::size_t i = 0; i < pairs.size(); ++i) add_row(pairs[i], compared_[i], middle);
-    if (cells_.cell_of(middle + 1) != cells_.cell_of(middle)) end_cells(cells_.cell_of(middle));
-  }
-  if (half_.height > 2) end_cells(cells_.cell_of(half_.height - 2));
+void MotionEstimator::add_terms_of(std::span<const MovedPair> pairs, const MotionField& field,
+                                   const RowTeam& team) {
+  const int cell_rows = static_cast<int>(cell_begins_.size()) - 1;
+  const std::vector<int> cuts = team.cuts(cell_rows, static_cast<int>(half_.area()) / cell_rows, 1);
+  team.each(static_cast<int>(cuts.size()) - 1, [&](int i) {
+    const auto row_at = [&](int cut) {
+      return cell_begins_[static_cast<std::size_t>(cuts[static_cast<std::size_t>(cut)])];
+    };
+    add_strip(pairs, field, row_at(i), row_at(i + 1));
+  });
 }
 
-void MotionEstimator::compensate_row(std::span<const MovedPair> pairs, const MotionField& field, int y) {
+void MotionEstimator::add_strip(std::span<const MovedPair> pairs, const MotionField& field, int begin,
+                                int end) {
+  Strip strip(half_, cells_, pairs.size());
+  const int first = std::max(begin, 1);
+  const int last = std::min(end, half_.height - 1) - 1;
+  for (int y = first - 1; y <= last + 1; ++y) {
+    compensate_row(pairs, field, y, strip);
+    const int middle = y - 1;
+    if (middle < first) continue;
+    for (std::size_t i = 0; i < pairs.size(); ++i) add_row(pairs[i], strip.compared[i], middle, strip);
+    const int cell = cells_.cell_of(middle);
+    if (middle == last || cells_.cell_of(y) != cell) end_cells(cell, strip);
+  }
+}
+
+void MotionEstimator::compensate_row(std::span<const MovedPair> pairs, const MotionField& field, int y,
+                                     Strip& strip) const {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const MovedPair& pair = pairs[i];
     if (i == 0 || pair.windows != pairs[i - 1].windows) {
-      cells_.interpolate_row(field.x, y, pair.windows / kHalf, vx_.data());
-      cells_.interpolate_row(field.y, y, pair.windows / kHalf, vy_.data());
-      lookup_.place(y, vx_.data(), vy_.data(), 1.0F);
+      strip.cells.interpolate_row(field.x, y, pair.windows / kHalf, strip.vx.data());
+      strip.cells.interpolate_row(field.y, y, pair.windows / kHalf, strip.vy.data());
+      strip.lookup.place(y, strip.vx.data(), strip.vy.data(), 1.0F);
     }
-    lookup_.sample(pair.before, moved_.data());
-    mean_and_difference(half_.width, moved_.data(), pair.after[y], compared_[i].mean[y % 3],
-                        compared_[i].difference[y % 3]);
+    strip.lookup.sample(pair.before, strip.moved.data());
+    mean_and_difference(half_.width, strip.moved.data(), pair.after[y], strip.compared[i].mean[y % 3],
+                        strip.compared[i].difference[y % 3]);
   }
 }
 
-void MotionEstimator::add_row(const MovedPair& pair, const Compared& compared, int y) {
+void MotionEstimator::add_row(const MovedPair& pair, const Compared& compared, int y, Strip& strip) const {
   // A step of 1 px a window moves the pair by so many pixels; half of it is the central difference's.
   const float reach = 0.5F * pair.windows / kHalf;
-  auto& [xx, xy, yy, rx, ry] = columns_;
+  auto& [xx, xy, yy, rx, ry] = strip.columns;
   add_terms(half_.width, compared.mean[(y - 1) % 3], compared.mean[y % 3], compared.mean[(y + 1) % 3],
             compared.difference[y % 3], pair.weight * reach * reach, -pair.weight * reach, xx.data(),
             xy.data(), yy.data(), rx.data(), ry.data());
 }
 
-void MotionEstimator::end_cells(int cell_row) {
+void MotionEstimator::end_cells(int cell_row, Strip& strip) {
   for (std::size_t i = 0; i < sums_.size(); ++i) {
+    std::vector<float>& columns = strip.columns[i];
     float* const sums = sums_[i][cell_row];
-    for (std::size_t x = 0; x < columns_[i].size(); ++x) sums[column_cells_[x]] += columns_[i][x];
-    std::fill(columns_[i].begin(), columns_[i].end(), 0.0F);
+    for (std::size_t x = 0; x < columns.size(); ++x) sums[column_cells_[x]] += columns[x];
+    std::fill(columns.begin(), columns.end(), 0.0F);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "esi/recon/flow/bilinear_row.hpp"
+#include "esi/core/row_team.hpp"
 #include "esi/recon/flow/cell_grid.hpp"
 
 namespace esi {
@@ -43,32 +43,29 @@ class MotionEstimator {
   /// where, with m the motion-compensated mean of a pair's images and e their difference,
   ///   T = sum weight grad m grad m^T,  rhs = -sum weight grad m e                                (3)
   /// over a cell, smoothed by [1 2 1] twice; then by a median of 3x3 cells. At most 64 px.
-  void improve(std::span<const MovedPair> pairs, MotionField& field);
+  void improve(std::span<const MovedPair> pairs, MotionField& field, const RowTeam& team = kAlone);
 
  private:
   /// Sums over cells: xx, xy, yy of T, then x and y of rhs.
   using Sums = std::array<cv::Mat1f, 5>;
 
-  /// The latest three rows of a pair after compensation, row y at y % 3.
-  struct Compared {
-    cv::Mat1f mean, difference;
-  };
+  struct Compared;
+  struct Strip;
 
-  void add_terms_of(std::span<const MovedPair> pairs, const MotionField& field);
-  void compensate_row(std::span<const MovedPair> pairs, const MotionField& field, int y);
-  void add_row(const MovedPair& pair, const Compared& compared, int y);
-  void end_cells(int cell_row);
+  void add_terms_of(std::span<const MovedPair> pairs, const MotionField& field, const RowTeam& team);
+  /// Of pixel rows [begin, end), whole rows of cells.
+  void add_strip(std::span<const MovedPair> pairs, const MotionField& field, int begin, int end);
+  void compensate_row(std::span<const MovedPair> pairs, const MotionField& field, int y, Strip& strip) const;
+  void add_row(const MovedPair& pair, const Compared& compared, int y, Strip& strip) const;
+  void end_cells(int cell_row, Strip& strip);
   void step(MotionField& field);
 
   Options options_;
   cv::Size half_;
   CellGrid cells_;
-  BilinearRow lookup_;
-  std::vector<Compared> compared_;
   Sums sums_;
-  std::array<std::vector<float>, 5> columns_;  ///< the sums of one row of cells, by pixel column
-  std::vector<int> column_cells_;              ///< the cell of each pixel column
-  std::vector<float> vx_, vy_, moved_;
+  std::vector<int> column_cells_;  ///< the cell of each pixel column
+  std::vector<int> cell_begins_;   ///< the first pixel row of each row of cells, and the image's height
 };
 
 }  // namespace esi

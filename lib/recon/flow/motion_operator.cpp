@@ -100,17 +100,18 @@ void MotionOperator::inverse_diagonal_row(int y, float* out) const {
   if (last > 0) out[last] = 1.0F / (own(vertical + 1) + (dd(above, last - 1) + ee(y, last - 1)));
 }
 
-void MotionOperator::coarsen(MotionOperator& coarse) const {
+void MotionOperator::coarsen(MotionOperator& coarse, const RowTeam& team) const {
   coarse.eps = eps;
   coarse.mu = 4.0F * mu;
-  for (int y = 0; y < coarse.dd.rows; ++y) coarsen_row(y, coarse);
+  team.over_rows(coarse.size(), [&](int begin, int end) {
+    std::vector<float> line(static_cast<std::size_t>(dd.cols));
+    for (int y = begin; y < end; ++y) coarsen_row(y, line, coarse);
+  });
 }
 
-void MotionOperator::coarsen_row(int y, MotionOperator& coarse) const {
+void MotionOperator::coarsen_row(int y, std::vector<float>& line, MotionOperator& coarse) const {
   // Corner (X, Y) of the half resolution lies on corner (2 X + 1, 2 Y + 1). The last row stays 0.
   if (y + 1 >= coarse.dd.rows) return;
-  std::vector<float>& line = coarse.line_;
-  line.resize(static_cast<std::size_t>(dd.cols));
   const auto halve = [&](const cv::Mat1f& a, cv::Mat1f& half) {
     mix_rows(dd.cols, a[2 * y], a[2 * y + 1], a[2 * y + 2], line.data());
     mix_along(half.cols - 1, line.data(), half[y]);

@@ -3,6 +3,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "esi/core/row_team.hpp"
+
 namespace esi {
 
 /// The symmetric, positive definite operator of the least-squares problem, on one grid of pixels:
@@ -28,7 +30,7 @@ class MotionOperator {
 
   /// The same problem on half the resolution. In two dimensions the energy of a gradient doesn't depend on
   /// the pixels' size, that of mu does. `coarse` has half this size, rounded up.
-  void coarsen(MotionOperator& coarse) const;
+  void coarsen(MotionOperator& coarse, const RowTeam& team = kAlone) const;
 
   cv::Mat1f dd, de, ee;
   float eps = 0.0F;
@@ -38,9 +40,8 @@ class MotionOperator {
   /// The row of corners above pixels y. There is none above the first; the last one, which holds 0, does for
   /// it.
   int corner_above(int y) const { return y > 0 ? y - 1 : dd.rows - 1; }
-  void coarsen_row(int y, MotionOperator& coarse) const;
-
-  std::vector<float> line_;  ///< a row between rows of a finer operator
+  /// `line` holds a row between rows.
+  void coarsen_row(int y, std::vector<float>& line, MotionOperator& coarse) const;
 };
 
 }  // namespace esi

@@ -22,7 +22,8 @@ class MultilevelSolver {
   /// Improves `solution`. A cycle restricts the residual to every level; from the coarsest on each level runs
   /// its steps of conjugate gradients (Jacobi's preconditioner) on what the level below it left. A correction
   /// e that goes up is scaled by r . e / e . M e, which makes the energy least along it              (8)
-  void solve(const MotionOperator& fine, const cv::Mat1f& rhs, int cycles, cv::Mat1f& solution);
+  void solve(const MotionOperator& fine, const cv::Mat1f& rhs, int cycles, cv::Mat1f& solution,
+             const RowTeam& team = kAlone);
 
  private:
   struct Level {
@@ -32,10 +33,12 @@ class MultilevelSolver {
     KrylovSteps steps;
   };
 
-  void cycle(const cv::Mat1f& rhs, cv::Mat1f& solution);
+  void cycle(const cv::Mat1f& rhs, cv::Mat1f& solution, const RowTeam& team);
+  void make_residual(const cv::Mat1f& rhs, const cv::Mat1f& solution, const RowTeam& team);
   /// Brings coarse's correction to this level, with its product; returns how far to go along it, equation
   /// (8).
-  static float take_correction(const Level& coarse, Level& level, const MotionOperator& normal);
+  static float take_correction(const Level& coarse, Level& level, const MotionOperator& normal,
+                               const RowTeam& team);
 
   const MotionOperator& operator_of(std::size_t level) const {
     return level == 0 ? *fine_ : levels_[level].normal;

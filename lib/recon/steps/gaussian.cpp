@@ -43,28 +43,29 @@ Gaussian::Gaussian(double deviation_px)
     : reach_px_(std::max(1, static_cast<int>(std::ceil(kReach * deviation_px)))),
       half_(half_kernel(deviation_px, reach_px_)) {}
 
-void Gaussian::apply(cv::Mat1f& image) {
-  blur_rows(image);
-  const int cols = image.cols;
-  for (int y = 0; y < image.rows; ++y) {
-    float* const out = image[y];
-    const float* const middle = rows_[y];
-    scale(cols, half_[0], middle, out);
-    for (int i = 1; i <= reach_px_; ++i) {
-      const float weight = half_[static_cast<std::size_t>(i)];
-      const float* const above = rows_[mirrored(y - i, image.rows)];
-      const float* const below = rows_[mirrored(y + i, image.rows)];
-      add_both(cols, weight, above, below, out);
-    }
+void Gaussian::apply(cv::Mat1f& image, const RowTeam& team) {
+  rows_.create(image.rows, image.cols);
+  team.over_rows(image.size(), [&](int begin, int end) { blur_along_rows(image, begin, end); });
+  team.over_rows(image.size(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) blur_across_rows(y, image[y]);
+  });
+}
+
+void Gaussian::blur_across_rows(int y, float* out) const {
+  scale(rows_.cols, half_[0], rows_[y], out);
+  for (int i = 1; i <= reach_px_; ++i) {
+    const float weight = half_[static_cast<std::size_t>(i)];
+    const float* const above = rows_[mirrored(y - i, rows_.rows)];
+    const float* const below = rows_[mirrored(y + i, rows_.rows)];
+    add_both(rows_.cols, weight, above, below, out);
   }
 }
 
-void Gaussian::blur_rows(const cv::Mat1f& image) {
-  rows_.create(image.rows, image.cols);
+void Gaussian::blur_along_rows(const cv::Mat1f& image, int begin, int end) {
   const int cols = image.cols;
-  padded_.resize(static_cast<std::size_t>(cols) + 2 * static_cast<std::size_t>(reach_px_));
-  float* const line = padded_.data() + reach_px_;
-  for (int y = 0; y < image.rows; ++y) {
+  std::vector<float> padded(static_cast<std::size_t>(cols) + 2 * static_cast<std::size_t>(reach_px_));
+  float* const line = padded.data() + reach_px_;
+  for (int y = begin; y < end; ++y) {
     std::copy_n(image[y], cols, line);
     for (int i = 1; i <= reach_px_; ++i) {
       line[-i] = image(y, mirrored(-i, cols));

@@ -37,6 +37,8 @@ class SteppedReconstructor final : public Reconstructor {
 
   const cv::Mat2f* motion() override { return method_->motion(); }
 
+  void use_workers(std::shared_ptr<WorkerPool> workers) override { method_->use_workers(std::move(workers)); }
+
   void render(std::int64_t t_us, cv::Mat1b& grey) override {
     if (has_tone_) return Reconstructor::render(t_us, grey);
     method_->render(t_us, grey);

@@ -28,7 +28,7 @@ TEST_CASE("The form of the output's name says what is written") {
   for (const Row& row : rows) {
     const TempFolder folder;
     std::filesystem::create_directory(folder / "folder.mp4");
-    const auto sink = open_frame_sink(folder / row.name, {}, {{32, 24}, 100, 1, ""});
+    const auto sink = open_frame_sink(folder / row.name, {}, {{32, 24}, 100, ""});
     sink->write(esi::test::frame_of(0, esi::test::noise(0, 32, 24)));
     sink->finish("{}");
     CHECK(std::filesystem::is_regular_file(folder / row.made));
@@ -38,13 +38,13 @@ TEST_CASE("The form of the output's name says what is written") {
 TEST_CASE("A name that says nothing is refused with what would") {
   const TempFolder folder;
   for (const std::string name : {"a.png", "a.webm", "b.c.MOV"}) {
-    const auto error = error_of([&] { open_frame_sink(folder / name, {}, {{32, 24}, 100, 1, ""}); });
+    const auto error = error_of([&] { open_frame_sink(folder / name, {}, {{32, 24}, 100, ""}); });
     CHECK_THAT(error.what(), Contains(name) && Contains(".mkv, .mp4 or .avi") && Contains("a folder"));
     CHECK(error.kind() == esi::Error::Kind::usage);
   }
   CHECK(error_of([] { open_frame_sink("", {}, {}); }).kind() == esi::Error::Kind::usage);
   CHECK(error_of([] {
-          open_frame_sink("-", {false, true, 1}, {{32, 24}, 100, 1, ""});
+          open_frame_sink("-", {false, true, 1}, {{32, 24}, 100, ""});
         }).kind() == esi::Error::Kind::usage);
 }
 

@@ -18,7 +18,7 @@ inline constexpr int kWidth = 32, kHeight = 24;
 inline constexpr const char* kManifest = "{\"fingerprint\": \"f1\"}\n";
 
 inline SinkContext context(int threads = 1, const std::string& fingerprint = "f1") {
-  return {{kWidth, kHeight}, 100, threads, fingerprint};
+  return {{kWidth, kHeight}, 100, fingerprint, std::make_shared<WorkerPool>(threads - 1)};
 }
 
 inline Frame made_frame(std::int64_t index) { return frame_of(index, noise(index, kWidth, kHeight)); }

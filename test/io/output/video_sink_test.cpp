@@ -24,7 +24,7 @@ constexpr int kWidth = 346, kHeight = 260;
 constexpr esi::SinkOptions kForce{true, false, 1}, kResume{false, true, 1};
 
 esi::SinkContext context(const std::string& fingerprint = "f1", double fps = 100) {
-  return {{kWidth, kHeight}, fps, 1, fingerprint};
+  return {{kWidth, kHeight}, fps, fingerprint};
 }
 
 /// All 256 grey levels, smooth enough for any codec, with one bright block that tells the frames apart.
@@ -158,7 +158,7 @@ TEST_CASE("A video that cannot be made is refused before anything is written") {
 
 TEST_CASE("A codec that cannot be opened is named") {
   const TempFolder folder;
-  const auto error = error_of([&] { VideoSink(folder / "a.mp4", {}, {{20000, 2}, 100, 1, ""}); });
+  const auto error = error_of([&] { VideoSink(folder / "a.mp4", {}, {{20000, 2}, 100, ""}); });
   CHECK_THAT(error.what(), Contains("a.mp4") && Contains("mp4v"));
   CHECK(names_in(folder.path()).empty());
 }
