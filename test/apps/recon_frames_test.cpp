@@ -103,6 +103,22 @@ TEST_CASE("threads, locale and the way in make no difference to the bytes") {
   CHECK(from_stdin.size() == expected.size());
 }
 
+TEST_CASE("the workers that encode take part in esi-flow, and make no difference to the bytes") {
+  const TempFolder folder;
+  const std::string recording = folder.write("events.txt", sample_text(20000, 10, 173, 131));
+  const auto bytes_with = [&](const std::string& threads) {
+    const auto out = folder / threads;
+    const auto motion = folder / ("motion" + threads);
+    const auto result = run_tool(
+        "esi-recon", {recording, "--size", "173x131", "--method", "esi-flow", "--fps", "130", "--median", "3",
+                      "--threads", threads, "--quiet", "--flow-out", motion, "-o", out});
+    CHECK(result.exit_code == 0);
+    return digest_of(out) + digest_of(motion);
+  };
+  const std::string expected = bytes_with("1");
+  for (const char* const threads : {"2", "3", "7"}) CHECK(bytes_with(threads) == expected);
+}
+
 TEST_CASE("frames go down a pipe as YUV4MPEG2") {
   const TempFolder folder;
   const std::string recording = folder.write("events.txt", sample_text(3500, 10));
