@@ -109,9 +109,9 @@ TEST_CASE("the workers that encode take part in esi-flow, and make no difference
   const auto bytes_with = [&](const std::string& threads) {
     const auto out = folder / threads;
     const auto motion = folder / ("motion" + threads);
-    const auto result = run_tool(
-        "esi-recon", {recording, "--size", "173x131", "--method", "esi-flow", "--fps", "130", "--median", "3",
-                      "--threads", threads, "--quiet", "--flow-out", motion, "-o", out});
+    const auto result =
+        run_tool("esi-recon", {recording, "--size", "173x131", "--method", "esi-flow", "--fps", "130",
+                               "--median", "--threads", threads, "--quiet", "--flow-out", motion, "-o", out});
     CHECK(result.exit_code == 0);
     return digest_of(out) + digest_of(motion);
   };

@@ -1,5 +1,7 @@
 #include "esi/recon/flow/conjugate_gradients.hpp"
 
+#include <algorithm>
+
 #include "esi/recon/flow/padded_plane.hpp"
 #include "esi/recon/flow/row_sums.hpp"
 #include "esi/recon/simd.hpp"
@@ -38,47 +40,47 @@ ConjugateGradients::ConjugateGradients(cv::Size size)
     : inverse_diagonal_(padded_plane(size)), direction_(padded_plane(size)), product_(padded_plane(size)) {}
 
 void ConjugateGradients::add_steps(const MotionOperator& normal, int steps, cv::Mat1f& residual,
-                                   cv::Mat1f& solution) {
-  double remaining = begin(normal, residual);
+                                   cv::Mat1f& solution, const RowTeam& team) {
+  double remaining = begin(normal, residual, team);
   for (int i = 0; i < steps && remaining > kNothing; ++i) {
-    const double energy = make_product(normal);
+    const double energy = make_product(normal, team);
     if (energy < kNothing) return;
-    const double next = go(static_cast<float>(remaining / energy), residual, solution);
-    turn(static_cast<float>(next / remaining), residual);
+    const double next = go(static_cast<float>(remaining / energy), residual, solution, team);
+    turn(static_cast<float>(next / remaining), residual, team);
     remaining = next;
   }
 }
 
-double ConjugateGradients::begin(const MotionOperator& normal, const cv::Mat1f& residual) {
-  direction_.setTo(0.0F);
-  for (int y = 0; y < residual.rows; ++y) normal.inverse_diagonal_row(y, inverse_diagonal_[y]);
-  turn(0.0F, residual);
-  double product = 0.0;
-  for (int y = 0; y < residual.rows; ++y) product += dot(direction_[y], residual[y], padded(residual.cols));
-  return product;
+double ConjugateGradients::begin(const MotionOperator& normal, const cv::Mat1f& residual,
+                                 const RowTeam& team) {
+  const int cols = padded(residual.cols);
+  return sum_over_rows(team, residual.size(), [&](int y) {
+    std::fill_n(direction_[y], cols, 0.0F);
+    normal.inverse_diagonal_row(y, inverse_diagonal_[y]);
+    turn_row(cols, 0.0F, inverse_diagonal_[y], residual[y], direction_[y]);
+    return dot(direction_[y], residual[y], cols);
+  });
 }
 
-double ConjugateGradients::make_product(const MotionOperator& normal) {
-  double energy = 0.0;
-  for (int y = 0; y < direction_.rows; ++y) {
+double ConjugateGradients::make_product(const MotionOperator& normal, const RowTeam& team) {
+  return sum_over_rows(team, direction_.size(), [&](int y) {
     normal.apply_row(direction_, y, product_[y]);
-    energy += dot(direction_[y], product_[y], padded(direction_.cols));
-  }
-  return energy;
+    return dot(direction_[y], product_[y], padded(direction_.cols));
+  });
 }
 
-double ConjugateGradients::go(float step, cv::Mat1f& residual, cv::Mat1f& solution) {
-  double remaining = 0.0;
-  for (int y = 0; y < residual.rows; ++y) {
+double ConjugateGradients::go(float step, cv::Mat1f& residual, cv::Mat1f& solution, const RowTeam& team) {
+  return sum_over_rows(team, residual.size(), [&](int y) {
     add_scaled(solution.cols, step, direction_[y], solution[y]);
-    remaining += go_row(padded(residual.cols), step, product_[y], inverse_diagonal_[y], residual[y]);
-  }
-  return remaining;
+    return go_row(padded(residual.cols), step, product_[y], inverse_diagonal_[y], residual[y]);
+  });
 }
 
-void ConjugateGradients::turn(float keep, const cv::Mat1f& residual) {
-  for (int y = 0; y < residual.rows; ++y)
-    turn_row(padded(residual.cols), keep, inverse_diagonal_[y], residual[y], direction_[y]);
+void ConjugateGradients::turn(float keep, const cv::Mat1f& residual, const RowTeam& team) {
+  team.over_rows(residual.size(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      turn_row(padded(residual.cols), keep, inverse_diagonal_[y], residual[y], direction_[y]);
+  });
 }
 
 }  // namespace esi

@@ -2,6 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "esi/core/row_team.hpp"
 #include "esi/recon/flow/motion_operator.hpp"
 
 namespace esi {
@@ -12,16 +13,17 @@ class ConjugateGradients {
   explicit ConjugateGradients(cv::Size size);
 
   /// Adds to `solution` what so many steps make of `residual`, a padded plane, and takes that out of it.
-  void add_steps(const MotionOperator& normal, int steps, cv::Mat1f& residual, cv::Mat1f& solution);
+  void add_steps(const MotionOperator& normal, int steps, cv::Mat1f& residual, cv::Mat1f& solution,
+                 const RowTeam& team = kAlone);
 
  private:
   /// direction = D^-1 residual; returns direction . residual
-  double begin(const MotionOperator& normal, const cv::Mat1f& residual);
+  double begin(const MotionOperator& normal, const cv::Mat1f& residual, const RowTeam& team);
   /// Returns direction . M direction.
-  double make_product(const MotionOperator& normal);
+  double make_product(const MotionOperator& normal, const RowTeam& team);
   /// Returns residual . D^-1 residual, then.
-  double go(float step, cv::Mat1f& residual, cv::Mat1f& solution);
-  void turn(float keep, const cv::Mat1f& residual);
+  double go(float step, cv::Mat1f& residual, cv::Mat1f& solution, const RowTeam& team);
+  void turn(float keep, const cv::Mat1f& residual, const RowTeam& team);
 
   cv::Mat1f inverse_diagonal_, direction_, product_;
 };

@@ -1,8 +1,6 @@
 #include "esi/recon/flow/grey_levels.hpp"
 
 #include <cmath>
-#include <numeric>
-#include <vector>
 
 #include "esi/recon/flow/row_sums.hpp"
 #include "esi/recon/simd.hpp"
@@ -27,16 +25,6 @@ ESI_SIMD double squares_about(float centre, const float* __restrict row, int col
   return rest + sum_of(sums);
 }
 
-/// Of a number that each row has, over all pixels.
-template <class OfRow>
-double mean_of_rows(const cv::Mat1f& image, const RowTeam& team, const OfRow& of_row) {
-  std::vector<double> sums(static_cast<std::size_t>(image.rows));
-  team.over_rows(image.size(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) sums[static_cast<std::size_t>(y)] = of_row(image[y]);
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(image.total());
-}
-
 ESI_SIMD void scale_row(int cols, float gain, float offset, const float* __restrict in,
                         float* __restrict out) {
   for (int x = 0; x < cols; ++x) out[x] = gain * in[x] + offset;
@@ -47,20 +35,20 @@ ESI_SIMD void scale_row(int cols, float gain, float offset, const float* __restr
 void grey_levels(const cv::Mat1f& log_intensity, double contrast_deviations, cv::Mat1f& levels,
                  const RowTeam& team) {
   levels.create(log_intensity.size());
-  const int cols = log_intensity.cols;
-  const auto mean = static_cast<float>(
-      mean_of_rows(log_intensity, team, [cols](const float* row) { return sum(row, cols); }));
-  const double variance =
-      mean_of_rows(log_intensity, team, [=](const float* row) { return squares_about(mean, row, cols); });
-  const auto deviation = static_cast<float>(std::sqrt(variance));
+  const cv::Size size = log_intensity.size();
+  const auto pixels = static_cast<double>(log_intensity.total());
+  const auto sum_of_row = [&](int y) { return sum(log_intensity[y], size.width); };
+  const auto mean = static_cast<float>(sum_over_rows(team, size, sum_of_row) / pixels);
+  const auto squares_of_row = [&](int y) { return squares_about(mean, log_intensity[y], size.width); };
+  const auto deviation = static_cast<float>(std::sqrt(sum_over_rows(team, size, squares_of_row) / pixels));
   if (deviation < kLeastDeviation) {
     levels.setTo(kNeutral);
     return;
   }
   const float gain = kNeutral / (static_cast<float>(contrast_deviations) * deviation);
-  team.over_rows(levels.size(), [&](int begin, int end) {
+  team.over_rows(size, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      scale_row(cols, gain, kNeutral - gain * mean, log_intensity[y], levels[y]);
+      scale_row(size.width, gain, kNeutral - gain * mean, log_intensity[y], levels[y]);
   });
 }
 

@@ -103,7 +103,7 @@ void KrylovSteps::add_to(cv::Mat1f& solution, const MotionOperator& normal, cons
                          cv::Mat1f& residual, const RowTeam& team) {
   make_basis(normal, first, residual, team);
   add_basis(solution, first, team);
-  if (one_by_one_ > 0) conjugate_gradients_.add_steps(normal, one_by_one_, residual, solution);
+  if (one_by_one_ > 0) conjugate_gradients_.add_steps(normal, one_by_one_, residual, solution, team);
 }
 
 void KrylovSteps::add_basis(cv::Mat1f& sum, const FirstStep& first, const RowTeam& team) const {

@@ -1,5 +1,8 @@
 #include "esi/recon/flow/row_sums.hpp"
 
+#include <numeric>
+#include <vector>
+
 #include "esi/recon/simd.hpp"
 
 namespace esi {
@@ -24,6 +27,14 @@ ESI_SIMD double dot(const float* __restrict a, const float* __restrict b, int co
   double rest = 0.0;
   for (; i < count; ++i) rest += static_cast<double>(a[i] * b[i]);
   return rest + sum_of(sums);
+}
+
+double sum_over_rows(const RowTeam& team, cv::Size image, const std::function<double(int y)>& of_row) {
+  std::vector<double> sums(static_cast<std::size_t>(image.height));
+  team.over_rows(image, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) sums[static_cast<std::size_t>(y)] = of_row(y);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace esi

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+
+#include "esi/core/row_team.hpp"
 #include "esi/recon/flow/padded_plane.hpp"
 
 namespace esi {
@@ -19,5 +22,8 @@ double sum(const float* a, int count);
 
 /// a . b over `count` entries, always added in the same order.
 double dot(const float* a, const float* b, int count);
+
+/// of_row(y) of an image's rows, whoever took them, always added in the same order.
+double sum_over_rows(const RowTeam& team, cv::Size image, const std::function<double(int y)>& of_row);
 
 }  // namespace esi

@@ -16,10 +16,12 @@ class Recorder final : public Reconstructor {
  public:
   void observe(const IntensityFrame& /*frame*/) override { ++observed; }
   void render_levels(std::int64_t /*t_us*/, cv::Mat1f& levels) override { sums.copyTo(levels); }
+  void use_workers(std::shared_ptr<WorkerPool> lent) override { workers = std::move(lent); }
 
   std::vector<Event> taken;
   std::vector<float> weights_taken;
   int observed = 0;
+  std::shared_ptr<WorkerPool> workers;
   cv::Mat1f sums{kSize.height_px, kSize.width_px, 0.0F};
 
  private:
@@ -50,6 +52,15 @@ StepSurroundings plain() { return {kSize, {}, {}, {}}; }
 TEST_CASE("without steps the method itself comes back") {
   const Stepped stepped({}, plain());
   CHECK(stepped.outer.get() == stepped.inner);
+}
+
+TEST_CASE("workers reach the method through the steps") {
+  StepOptions options;
+  options.smoothing.median = true;
+  const Stepped stepped(options, plain());
+  const auto workers = std::make_shared<WorkerPool>(1);
+  stepped.outer->use_workers(workers);
+  CHECK(stepped.inner->workers == workers);
 }
 
 TEST_CASE("every step alone puts something around the method") {
