@@ -34,8 +34,8 @@ class RowTeam {
   /// One within another makes no difference.
   [[nodiscard]] Shift begin_shift();
 
-  /// Calls work(i) once for each i from 0 to count - 1, in any order, within a shift on any thread. Rethrows
-  /// the error of one of them when none runs any more.
+  /// Calls work(i), which makes no calls here itself, once for each i from 0 to count - 1, in any order,
+  /// within a shift on any thread. Rethrows the error of one of them when none runs any more.
   void each(int count, const std::function<void(int i)>& work) const;
 
   /// Where to cut so many rows: 0, multiples of `step`, and `rows`. Pieces have at least `step` rows, and

@@ -26,9 +26,10 @@ struct Shown {
 /// Of random events, an event for every tenth pixel in a window. The first windows have more cycles, and
 /// another way to the motion.
 Shown shown_by(SensorSize size, int threads, std::int64_t levels = 4) {
-  constexpr std::int64_t kWindows = 12;
+  constexpr std::int64_t kWindows = 10;
   EsiFlowOptions options;
   options.first_windows = 2;
+  options.first_cycles = 2;
   options.levels = levels;
   EsiFlow flow(options, size);
   if (threads > 1) flow.use_workers(std::make_shared<WorkerPool>(threads - 1));
@@ -51,10 +52,11 @@ Shown shown_by(SensorSize size, int threads, std::int64_t levels = 4) {
 }  // namespace
 
 TEST_CASE("frames and motion have the same bytes on any number of threads") {
-  // Three levels are cut, two, one, none; then an odd column, a single one, a single row.
+  // Two levels are cut, one, none; then an odd column, a single one (whose steps are taken one by one), a
+  // row.
   for (const SensorSize size :
-       {SensorSize{417, 309}, SensorSize{301, 203}, SensorSize{97, 131}, SensorSize{33, 17},
-        SensorSize{3, 6001}, SensorSize{1, 9001}, SensorSize{9001, 1}, SensorSize{1, 1}}) {
+       {SensorSize{301, 203}, SensorSize{97, 131}, SensorSize{33, 17}, SensorSize{3, 6001},
+        SensorSize{1, 9001}, SensorSize{9001, 1}, SensorSize{1, 1}}) {
     const Shown expected = shown_by(size, 1);
     for (const int threads : {2, 3, 7}) {
       INFO(size.width_px << "x" << size.height_px << ", " << threads << " threads");
