@@ -11,7 +11,7 @@ namespace esi {
 namespace {
 
 /// Of a piece: some microseconds' work, of which handing it over takes one.
-constexpr int kLeastPixels = 4096;
+constexpr int kLeastPixels = 2048;
 /// More than one, since workers come when they have time.
 constexpr int kPiecesPerThread = 2;
 

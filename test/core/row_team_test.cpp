@@ -102,8 +102,8 @@ TEST_CASE("Rows are cut at multiples of the step, into pieces that are worth it"
   CHECK(team.cuts(720, 1280, 1) == std::vector<int>{0, 120, 240, 360, 480, 600, 720});
   CHECK(team.cuts(721, 1280, 50) == std::vector<int>{0, 100, 200, 350, 450, 600, 721});
   CHECK(team.cuts(100, 20000, 30) == std::vector<int>{0, 30, 60, 100});
-  CHECK(team.cuts(64, 128, 1) == std::vector<int>{0, 32, 64});
-  CHECK(team.cuts(63, 128, 1) == std::vector<int>{0, 63});
+  CHECK(team.cuts(32, 128, 1) == std::vector<int>{0, 16, 32});
+  CHECK(team.cuts(31, 128, 1) == std::vector<int>{0, 31});
   CHECK(team.cuts(1, 65535, 1) == std::vector<int>{0, 1});
   CHECK(team.cuts(65535, 65535, 1).size() == 7);
   std::vector<int> seen(97, 0);
