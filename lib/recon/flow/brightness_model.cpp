@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "esi/recon/flow/bilinear_row.hpp"
+#include "esi/recon/flow/row_motion.hpp"
 #include "esi/recon/simd.hpp"
 
 namespace esi {
@@ -43,22 +43,6 @@ void repeat_last_corners(cv::Mat1f& corners) {
 
 }  // namespace
 
-/// How a row moves, and where its pixels come from.
-struct BrightnessModel::RowMotion {
-  RowMotion(cv::Size size, const CellGrid& over)
-      : cells(over), lookup(size), x(static_cast<std::size_t>(size.width)), y(x.size()), b(x.size()) {}
-
-  void look_up(const MotionField& field, int row, float share) {
-    cells.interpolate_row(field.x, row, share, x.data());
-    cells.interpolate_row(field.y, row, share, y.data());
-    lookup.place(row, x.data(), y.data(), 1.0F);
-  }
-
-  CellGrid cells;
-  BilinearRow lookup;
-  std::vector<float> x, y, b;
-};
-
 BrightnessModel::BrightnessModel(cv::Size size, const Options& options)
     : options_(options),
       operator_(size),
@@ -76,9 +60,10 @@ void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, const C
                            const RowTeam& team) {
   team.over_rows(log_intensity_.size(), [&](int begin, int end) {
     RowMotion motion(log_intensity_.size(), cells);
+    std::vector<float> moved_b(motion.x.size());
     for (int y = begin; y < end; ++y) {
       motion.look_up(field, y, 1.0F);
-      move_row(y, b, motion);
+      move_row(y, b, motion, moved_b.data());
     }
   });
   repeat_last_corners(moved_d_);
@@ -88,7 +73,7 @@ void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, const C
   cv::swap(log_intensity_, moved_l_);
 }
 
-void BrightnessModel::move_row(int y, const cv::Mat1f& b, RowMotion& motion) {
+void BrightnessModel::move_row(int y, const cv::Mat1f& b, RowMotion& motion, float* moved_b) {
   const float* const vx = motion.x.data();
   const float* const vy = motion.y.data();
   motion.lookup.sample(log_intensity_, moved_l_[y]);
@@ -96,8 +81,8 @@ void BrightnessModel::move_row(int y, const cv::Mat1f& b, RowMotion& motion) {
   motion.lookup.sample(a_d_, moved_d_[y]);
   motion.lookup.sample(a_e_, moved_e_[y]);
   motion.lookup.place(y, vx, vy, 0.5F, 0.5F);
-  motion.lookup.sample(b, motion.b.data());
-  accumulate(log_intensity_.cols - 1, vx, vy, motion.b.data(), options_.memory, 1.0F / options_.memory_px,
+  motion.lookup.sample(b, moved_b);
+  accumulate(log_intensity_.cols - 1, vx, vy, moved_b, options_.memory, 1.0F / options_.memory_px,
              options_.weight, operator_.dd[y], operator_.de[y], operator_.ee[y], moved_d_[y], moved_e_[y]);
 }
 
@@ -111,6 +96,15 @@ void BrightnessModel::move_image(const MotionField& field, const CellGrid& cells
       motion.lookup.sample(log_intensity_, moved[y]);
     }
   });
+}
+
+void BrightnessModel::turn(const cv::Mat1f& signs, CellGrid cells) {
+  std::vector<float> sign(static_cast<std::size_t>(log_intensity_.cols));
+  for (int y = 0; y < log_intensity_.rows; ++y) {
+    cells.interpolate_row(signs, y, 1.0F, sign.data());
+    for (cv::Mat1f* plane : {&log_intensity_, &a_d_, &a_e_})
+      for (std::size_t x = 0; x < sign.size(); ++x) (*plane)[y][x] *= sign[x];
+  }
 }
 
 void BrightnessModel::right_hand_side(cv::Mat1f& rhs, const RowTeam& team) const {

@@ -9,6 +9,8 @@
 
 namespace esi {
 
+struct RowMotion;
+
 /// What all windows so far say about log intensity L, carried along with the motion v (px a window): b = -v .
 /// grad L in each, as a least-squares problem
 ///   L = argmin sum grad L^T A grad L - 2 a^T grad L + eps |grad L|^2 + mu L^2                    (4)
@@ -38,14 +40,17 @@ class BrightnessModel {
   void move_image(const MotionField& field, const CellGrid& cells, float share, cv::Mat1f& moved,
                   const RowTeam& team = kAlone) const;
 
+  /// Where a motion turned out to be the opposite: L and a, which change their signs with it, times these
+  /// factors, which are of cells. A has v twice and stays.
+  void turn(const cv::Mat1f& signs, CellGrid cells);
+
   MotionOperator& normal_operator() { return operator_; }
 
   cv::Mat1f& log_intensity() { return log_intensity_; }
 
  private:
-  struct RowMotion;
-
-  void move_row(int y, const cv::Mat1f& b, RowMotion& motion);
+  /// `moved_b` has as many entries as there are columns.
+  void move_row(int y, const cv::Mat1f& b, RowMotion& motion, float* moved_b);
   void right_hand_side_row(int y, const float* none, cv::Mat1f& rhs) const;
 
   Options options_;

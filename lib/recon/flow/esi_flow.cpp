@@ -68,6 +68,7 @@ EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
       smooth_(options.flow_blur_px),
       motion_(cv_size(size), {static_cast<double>(options.cell_px), options.flow_regularisation,
                               static_cast<int>(options.flow_rounds)}),
+      sign_(half_of(cv_size(size)), motion_.cells()),
       cells_(cv_size(size), static_cast<double>(options.cell_px)),
       model_(cv_size(size), options.model()),
       solver_(cv_size(size), options.solver()),
@@ -95,11 +96,10 @@ void EsiFlow::take_window(std::span<const Event> window, std::span<const float> 
     field_.y.setTo(0.0F);
   }
   last_window_ = index;
-  if (windows_seen_ < kFirstWindows) {
-    estimate_first_motion();
-  } else {
-    estimate_motion();
-  }
+  const bool is_first = windows_seen_ < kFirstWindows;
+  is_first ? estimate_first_motion() : estimate_motion();
+  sign_.take(events_, field_, team_);
+  if (!is_first) turn_reversed_cells();
   events_.copyTo(events_before_);
   model_.take(b, field_, cells_, team_);
   model_.right_hand_side(rhs_, team_);
@@ -135,6 +135,16 @@ void EsiFlow::estimate_motion() {
       MovedPair{intensity_before_, intensity_after_, 1.0F, 1.0F},
       MovedPair{events_before_, events_, static_cast<float>(options_.event_pair_weight), 1.0F}};
   motion_.improve(pairs, field_, team_);
+  motion_.correct_speed(pairs.back(), field_, team_);
+}
+
+void EsiFlow::turn_reversed_cells() {
+  const cv::Mat1f signs = sign_.signs(field_);
+  if (signs.empty()) return;
+  field_.x = field_.x.mul(signs);
+  field_.y = field_.y.mul(signs);
+  sign_.turn(signs);
+  model_.turn(signs, cells_);
 }
 
 const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {

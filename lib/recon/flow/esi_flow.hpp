@@ -14,6 +14,7 @@
 #include "esi/recon/flow/event_image.hpp"
 #include "esi/recon/flow/half_size.hpp"
 #include "esi/recon/flow/motion_estimator.hpp"
+#include "esi/recon/flow/motion_sign.hpp"
 #include "esi/recon/flow/multilevel_solver.hpp"
 #include "esi/recon/reconstructor.hpp"
 
@@ -61,6 +62,8 @@ class EsiFlow final : public Reconstructor {
   void take_window(std::span<const Event> window, std::span<const float> weights);
   void estimate_motion();
   void estimate_first_motion();
+  /// Where the motion's sign is wrong, so is the image's.
+  void turn_reversed_cells();
   /// The image at t_us: that of the last window, moved on where events show that the motion goes on.
   const cv::Mat1f& image_at(std::int64_t t_us);
 
@@ -70,6 +73,7 @@ class EsiFlow final : public Reconstructor {
   EventImage event_image_;
   SmoothHalf smooth_;
   MotionEstimator motion_;
+  MotionSign sign_;
   CellGrid cells_;  ///< over the full resolution
   BrightnessModel model_;
   MultilevelSolver solver_;

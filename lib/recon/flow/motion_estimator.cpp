@@ -14,6 +14,9 @@ namespace {
 constexpr float kHalf = 2.0F;
 /// Of a window's motion: nothing that is faster can be followed.
 constexpr float kLargest_px = 64.0F;
+/// Factors by which a window's speed is corrected at most.
+constexpr double kSlowest = 0.8;
+constexpr double kFastest = 1.25;
 
 ESI_SIMD void mean_and_difference(int cols, const float* __restrict moved, const float* __restrict after,
                                   float* __restrict mean, float* __restrict difference) {
@@ -82,7 +85,6 @@ MotionEstimator::MotionEstimator(cv::Size full, const Options& options)
 
 void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& field, const RowTeam& team) {
   for (int round = 0; round < options_.rounds; ++round) {
-    for (cv::Mat1f& sum : sums_) sum.setTo(0.0F);
     add_terms_of(pairs, field, team);
     for (cv::Mat1f& sum : sums_) {
       smooth_cells(sum);
@@ -94,8 +96,25 @@ void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& fie
   take_median(field.y);
 }
 
+void MotionEstimator::correct_speed(const MovedPair& pair, MotionField& field, const RowTeam& team) {
+  add_terms_of({&pair, 1}, field, team);
+  const auto& [xx, xy, yy, rx, ry] = sums_;
+  double along = 0.0;
+  double energy = 1.0;
+  for (int i = 0; i < static_cast<int>(field.x.total()); ++i) {
+    const float x = field.x(i);
+    const float y = field.y(i);
+    along += static_cast<double>(x * rx(i) + y * ry(i));
+    energy += static_cast<double>(x * x * xx(i) + 2.0F * x * y * xy(i) + y * y * yy(i));
+  }
+  const double factor = std::clamp(1.0 + 0.5 * along / energy, kSlowest, kFastest);
+  field.x *= factor;
+  field.y *= factor;
+}
+
 void MotionEstimator::add_terms_of(std::span<const MovedPair> pairs, const MotionField& field,
                                    const RowTeam& team) {
+  for (cv::Mat1f& sum : sums_) sum.setTo(0.0F);
   const int cell_rows = static_cast<int>(cell_begins_.size()) - 1;
   const std::vector<int> cuts = team.cuts(cell_rows, static_cast<int>(half_.area()) / cell_rows, 1);
   team.each(static_cast<int>(cuts.size()) - 1, [&](int i) {

@@ -102,3 +102,29 @@ TEST_CASE("events are taken from half way back") {
   }
   CHECK(cv::norm(rhs, expected, cv::NORM_INF) < 1e-5);
 }
+
+TEST_CASE("what turns out to be a negative changes its sign, with what the windows so far said of it") {
+  BrightnessModel model(kImage,
+                        {.eps = 0.02F, .mu = 0.001F, .memory = 1.0F, .memory_px = 2.0F, .weight = 1.0F});
+  CellGrid cells(kImage, 10.0);
+  model.take(random_image(kImage, 4), constant(cells, 0.7F, -0.4F), cells);
+  random_image(kImage, 5).copyTo(model.log_intensity());
+  cv::Mat1f rhs, turned_rhs;
+  model.right_hand_side(rhs);
+  const cv::Mat1f image = model.log_intensity().clone();
+  const cv::Mat1f dd = model.normal_operator().dd.clone();
+  cv::Mat1f signs(cells.size(), 1.0F);
+  signs.colRange(0, 2).setTo(-1.0F);
+  model.turn(signs, cells);
+  model.right_hand_side(turned_rhs);
+  CHECK(cv::norm(model.normal_operator().dd, dd, cv::NORM_INF) == 0.0);
+  // Up to the middle of the second cell; halfway to the third it goes through 0.
+  const cv::Rect left(0, 0, 15, kImage.height);
+  const cv::Rect right(26, 0, kImage.width - 26, kImage.height);
+  CHECK(cv::norm(model.log_intensity()(left), -image(left), cv::NORM_INF) == 0.0);
+  CHECK(cv::norm(model.log_intensity()(right), image(right), cv::NORM_INF) == 0.0);
+  CHECK(std::abs(model.log_intensity()(4, 19)) < 0.15 * std::abs(image(4, 19)));
+  CHECK(cv::norm(turned_rhs(left & cv::Rect(0, 0, 14, kImage.height)),
+                 -rhs(left & cv::Rect(0, 0, 14, kImage.height)), cv::NORM_INF) == 0.0);
+  CHECK(cv::norm(turned_rhs(right), rhs(right), cv::NORM_INF) == 0.0);
+}

@@ -101,6 +101,19 @@ TEST_CASE("a frame within a window is moved on by the motion so far") {
   CHECK(correlation(frames[1], truth(0.5475), 8) > 0.9);
 }
 
+TEST_CASE("a part that has begun as a negative becomes right") {
+  const auto slow = [](int x, int y, double t_s) { return 0.5 * kWaves.at(x - 35.0 * t_s, y - 15.0 * t_s); };
+  std::vector<Event> events = events_of(kSize, 0, 400'000, 0.15, slow);
+  // For so long ON and OFF are exchanged: a negative that moves as the scene does.
+  for (Event& event : events) event.on = event.on != (event.t_us < 150'000);
+  const auto frames = frames_of({}, events, {150'000, 400'000});
+  const auto at = [&](double t_s) {
+    return image_of({kSize.width_px, kSize.height_px}, [&](int x, int y) { return slow(x, y, t_s); });
+  };
+  CHECK(correlation(frames[0], at(0.15), 8) < -0.5);
+  CHECK(correlation(frames[1], at(0.4), 8) > 0.5);
+}
+
 TEST_CASE("windows of another length give much the same image") {
   for (const std::int64_t window_us : {5'000, 20'000}) {
     EsiFlowOptions options;

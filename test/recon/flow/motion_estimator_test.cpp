@@ -146,3 +146,30 @@ TEST_CASE("images of any size have a motion, and flat ones have none") {
     CHECK(cv::norm(field.x) + cv::norm(field.y) == 0.0);
   }
 }
+
+TEST_CASE("a pair corrects the speed of the whole field, and nothing else of it") {
+  const cv::Point2d v(0.8, -0.5);
+  const Waves waves(3, 16.0, 60.0);
+  const cv::Size half = half_of(kFull);
+  const cv::Mat1f before = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y)); });
+  const cv::Mat1f after = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y) - v); });
+  const MovedPair pair{before, after, 5.0F, 1.0F};
+  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+  const auto corrected = [&](double speed, int calls) {
+    const auto x = static_cast<float>(speed * v.x);
+    const auto y = static_cast<float>(speed * v.y);
+    MotionField field{cv::Mat1f(estimator.cells().size(), x), cv::Mat1f(estimator.cells().size(), y)};
+    for (int i = 0; i < calls; ++i) estimator.correct_speed(pair, field);
+    CHECK(field.y(2, 3) == Approx(field.x(2, 3) * v.y / v.x));
+    CHECK(field.x(2, 3) == field.x(5, 1));
+    return static_cast<double>(field.x(2, 3)) / v.x;
+  };
+  for (const double speed : {0.9, 1.1, 1.2}) {
+    INFO(speed);
+    CHECK(corrected(speed, 1) == Approx(0.5 * (speed + 1.0)).margin(0.02));
+    CHECK(corrected(speed, 10) == Approx(1.0).margin(0.02));
+  }
+  // Not by more than a fifth or a quarter in one window.
+  CHECK(corrected(3.0, 1) == Approx(2.4));
+  CHECK(corrected(0.1, 1) == Approx(0.125));
+}
