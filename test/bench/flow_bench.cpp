@@ -16,6 +16,7 @@
 
 #include "esi/recon/flow/brightness_model.hpp"
 #include "esi/recon/flow/esi_flow.hpp"
+#include "esi/recon/flow/motion_sign.hpp"
 #include "timing.hpp"
 
 namespace {
@@ -171,6 +172,7 @@ void compare(esi::SensorSize sensor) {
   for (float& v : field.y) v -= 0.4F;
   const std::array pairs{esi::MovedPair{half_a, half_b, 1.0F, 1.0F},
                          esi::MovedPair{half_b, half_a, 1.0F, 1.0F}};
+  esi::MotionSign sign(half_a.size(), motion.cells());
   const std::vector<Part> parts{
       {"event image", 1.0, [&](const esi::RowTeam&) { event_image.of(events, {}); }},
       {"half size and Gaussian", 1.25, [&](const esi::RowTeam& team) { smooth(b, half_a, team); }},
@@ -179,6 +181,12 @@ void compare(esi::SensorSize sensor) {
          esi::MotionField warm{field.x.clone(), field.y.clone()};
          motion.improve(pairs, warm, team);
        }},
+      {"speed", 2 * 0.25,
+       [&](const esi::RowTeam& team) {
+         esi::MotionField warm{field.x.clone(), field.y.clone()};
+         motion.correct_speed(pairs[1], warm, team);
+       }},
+      {"sign", 9 * 0.25, [&](const esi::RowTeam& team) { sign.take(half_a, field, team); }},
       {"warp and accumulate", 13.0, [&](const esi::RowTeam& team) { model.take(b, field, cells, team); }},
       {"right-hand side", 3.0, [&](const esi::RowTeam& team) { model.right_hand_side(rhs, team); }},
       // The residual, the coarse A, the correction from below, then a basis that is written and summed.
