@@ -157,7 +157,7 @@ void compare(esi::SensorSize sensor) {
   const esi::EsiFlowOptions options;
   esi::EventImage event_image(sensor, true);
   esi::SmoothHalf smooth(options.flow_blur_px);
-  esi::MotionEstimator motion(size, {16.0, 0.1, 2});
+  esi::MotionEstimator motion(size, {16.0, 0.1, options.flow_hold, static_cast<int>(options.flow_rounds)});
   esi::CellGrid cells(size, 16.0);
   esi::BrightnessModel model(size, options.model());
   esi::MultilevelSolver solver(size, options.solver());

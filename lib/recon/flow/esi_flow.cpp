@@ -29,6 +29,8 @@ void EsiFlowOptions::declare(OptionTable& table) {
              "how much a cell's motion is held by its neighbours'");
   table.real("event_pair_weight", event_pair_weight, {0.0, 1e6}, "",
              "how much two event images count for the motion, beside the reconstruction");
+  table.real("flow_hold", flow_hold, {0.0, 1e6}, "",
+             "how much a cell's motion stays as it was, but for what all cells share");
   table.integer("flow_rounds", flow_rounds, {1, 20}, "", "how often a window's motion is improved");
   table.real("memory", memory, {0.0, 1.0}, "", "what is left of the past after 10 ms without motion");
   table.real("memory_px", memory_px, {0.01, 1e6}, "px", "half of the past is forgotten over this path");
@@ -67,7 +69,7 @@ EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
       event_image_(size, options.balance),
       smooth_(options.flow_blur_px),
       motion_(cv_size(size), {static_cast<double>(options.cell_px), options.flow_regularisation,
-                              static_cast<int>(options.flow_rounds)}),
+                              options.flow_hold, static_cast<int>(options.flow_rounds)}),
       sign_(half_of(cv_size(size)), motion_.cells()),
       cells_(cv_size(size), static_cast<double>(options.cell_px)),
       model_(cv_size(size), options.model()),

@@ -28,7 +28,8 @@ struct EsiFlowOptions {
   std::int64_t cell_px = 16;
   double flow_regularisation = 0.02;
   double event_pair_weight = 5.0;
-  std::int64_t flow_rounds = 2;
+  double flow_hold = 0.5;
+  std::int64_t flow_rounds = 1;
   double memory = 1.0;
   double memory_px = 1.0;
   double eps = 0.003;

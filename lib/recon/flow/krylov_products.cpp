@@ -1,15 +1,12 @@
 #include "esi/recon/flow/krylov_products.hpp"
 
 #include <cmath>
-#include <opencv2/core.hpp>
+#include <opencv2/core/mat.hpp>
 
-#include "esi/recon/flow/row_sums.hpp"
+#include "esi/recon/flow/small_system.hpp"
 
 namespace esi {
 namespace {
-
-/// Of a vector's energy, what must be left of it without the vectors before it: its entries are floats.
-constexpr double kLeastNew = 1e-6;
 
 /// m_j = z_0 . M T_j z_0, from j = 0 on.
 std::vector<double> moments_of(const std::vector<KrylovProducts>& products) {
@@ -33,38 +30,13 @@ cv::Mat1d gram_of(const std::vector<KrylovProducts>& products) {
   return gram;
 }
 
-/// Puts Cholesky's factor of `gram` below its diagonal; returns how many vectors it goes for.
-int factorise(cv::Mat1d& gram) {
-  for (int i = 0; i < gram.rows; ++i) {
-    const double energy = gram(i, i);
-    for (int j = 0; j < i; ++j) {
-      for (int k = 0; k < j; ++k) gram(i, j) -= gram(i, k) * gram(j, k);
-      gram(i, j) /= gram(j, j);
-      gram(i, i) -= gram(i, j) * gram(i, j);
-    }
-    if (energy < kNothing || gram(i, i) < kLeastNew * energy) return i;
-    gram(i, i) = std::sqrt(gram(i, i));
-  }
-  return gram.rows;
-}
-
 }  // namespace
 
 std::vector<float> least_energy_factors(const std::vector<KrylovProducts>& products) {
-  cv::Mat1d factor = gram_of(products);
-  const int count = factorise(factor);
-  std::vector<double> f(products.size(), 0.0);
-  const auto at = [&f](int i) -> double& { return f[static_cast<std::size_t>(i)]; };
-  for (int i = 0; i < count; ++i) {
-    at(i) = products[static_cast<std::size_t>(i)].residual;
-    for (int k = 0; k < i; ++k) at(i) -= factor(i, k) * at(k);
-    at(i) /= factor(i, i);
-  }
-  for (int i = count; i-- > 0;) {
-    for (int k = i + 1; k < count; ++k) at(i) -= factor(k, i) * at(k);
-    at(i) /= factor(i, i);
-  }
-  return {f.begin(), f.end()};
+  std::vector<double> rhs;
+  for (const KrylovProducts& of : products) rhs.push_back(of.residual);
+  const std::vector<double> factors = solve_small(gram_of(products), rhs);
+  return {factors.begin(), factors.end()};
 }
 
 }  // namespace esi

@@ -42,6 +42,14 @@ ESI_SIMD void add_terms(int cols, const float* __restrict above, const float* __
   }
 }
 
+/// Half of T's mean trace.
+float mean_texture(const cv::Mat1f& xx, const cv::Mat1f& yy) {
+  double sum = 0.0;
+  for (int i = 0; i < static_cast<int>(xx.total()); ++i)
+    sum += static_cast<double>(xx(i)) + static_cast<double>(yy(i));
+  return static_cast<float>(0.5 * sum / static_cast<double>(xx.total()));
+}
+
 void take_median(cv::Mat1f& cells) {
   cv::Mat1f medians;
   cv::medianBlur(cells, medians, 3);
@@ -84,6 +92,8 @@ MotionEstimator::MotionEstimator(cv::Size full, const Options& options)
 }
 
 void MotionEstimator::improve(std::span<const MovedPair> pairs, MotionField& field, const RowTeam& team) {
+  add_terms_of(pairs, field, team);
+  add_common_motion(sums_, field);
   for (int round = 0; round < options_.rounds; ++round) {
     add_terms_of(pairs, field, team);
     for (cv::Mat1f& sum : sums_) {
@@ -178,10 +188,11 @@ void MotionEstimator::step(MotionField& field) {
   const cv::Mat1f mean_y = mean_of_neighbours(field.y);
   const auto reg = static_cast<float>(options_.regularisation);
   const auto& [xx, xy, yy, rx, ry] = sums_;
+  const float own = reg + static_cast<float>(options_.hold) * mean_texture(xx, yy);
   for (int i = 0; i < static_cast<int>(field.x.total()); ++i) {
-    const float a = xx(i) + reg;
+    const float a = xx(i) + own;
     const float b = xy(i);
-    const float d = yy(i) + reg;
+    const float d = yy(i) + own;
     const float x = rx(i) + reg * (mean_x(i) - field.x(i));
     const float y = ry(i) + reg * (mean_y(i) - field.y(i));
     const float determinant = a * d - b * b;

@@ -7,13 +7,9 @@
 
 #include "esi/core/row_team.hpp"
 #include "esi/recon/flow/cell_grid.hpp"
+#include "esi/recon/flow/common_motion.hpp"
 
 namespace esi {
-
-/// The image's motion: one vector per cell, in px of the full resolution per window.
-struct MotionField {
-  cv::Mat1f x, y;
-};
 
 /// Two images of half the resolution, the first of which moved became the second.
 struct MovedPair {
@@ -30,6 +26,7 @@ class MotionEstimator {
   struct Options {
     double cell_px;         ///< of the full resolution
     double regularisation;  ///< reg: how much neighbours hold a cell
+    double hold;            ///< h: how much a cell's own motion is held, by T's mean
     int rounds;
   };
 
@@ -38,11 +35,12 @@ class MotionEstimator {
   /// Cells over the half resolution.
   const CellGrid& cells() const { return cells_; }
 
-  /// Improves `field`, from where it stands, by `rounds` of
-  ///   v += (T + reg I)^-1 (rhs + reg (mean of neighbours - v))                                   (2)
+  /// Improves `field`, from where it stands: first all cells together, equation (2), then, in `rounds`, each,
+  ///   v += (T + (reg + h mean T) I)^-1 (rhs + reg (mean of neighbours - v))                     (2a)
   /// where, with m the motion-compensated mean of a pair's images and e their difference,
   ///   T = sum weight grad m grad m^T,  rhs = -sum weight grad m e                                (3)
-  /// over a cell, smoothed by [1 2 1] twice; then by a median of 3x3 cells. At most 64 px.
+  /// over a cell, smoothed by [1 2 1] twice, and mean T is half of the mean trace; then by a median of 3x3
+  /// cells. At most 64 px.
   void improve(std::span<const MovedPair> pairs, MotionField& field, const RowTeam& team = kAlone);
 
   /// Makes the whole field faster or slower, as one of the pairs says alone, v its motion:
@@ -51,9 +49,6 @@ class MotionEstimator {
   void correct_speed(const MovedPair& pair, MotionField& field, const RowTeam& team = kAlone);
 
  private:
-  /// Sums over cells: xx, xy, yy of T, then x and y of rhs.
-  using Sums = std::array<cv::Mat1f, 5>;
-
   struct Compared;
   struct Strip;
 
@@ -68,7 +63,7 @@ class MotionEstimator {
   Options options_;
   cv::Size half_;
   CellGrid cells_;
-  Sums sums_;
+  CellSums sums_;
   std::vector<int> column_cells_;  ///< the cell of each pixel column
   std::vector<int> cell_begins_;   ///< the first pixel row of each row of cells, and the image's height
 };

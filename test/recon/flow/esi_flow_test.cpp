@@ -177,3 +177,21 @@ TEST_CASE("the motion that is shown is that of the scene, in px per second") {
   CHECK(mean[0] == Approx(expected.x).margin(8.0));
   CHECK(mean[1] == Approx(expected.y).margin(8.0));
 }
+
+TEST_CASE("the motion is little faster than the scene's") {
+  EsiFlow flow({}, kSize);
+  std::size_t given = 0;
+  double along = 0.0;
+  double expected = 0.0;
+  for (std::int64_t t_us = 300'000; t_us <= 600'000; t_us += kWindow_us) {
+    flow.process(events_until(moving_events(), given, t_us));
+    levels_at(flow, t_us);
+    const double t_s = 1e-6 * static_cast<double>(t_us);
+    const cv::Point2d v = (place_at(t_s, 1e9) - place_at(t_s - 0.01, 1e9)) / 0.01;
+    const cv::Scalar mean = cv::mean((*flow.motion())(cv::Rect(16, 16, 64, 48)));
+    along += mean[0] * v.x + mean[1] * v.y;
+    expected += v.dot(v);
+  }
+  // Known to be 6 % too fast; by L alone it would be 11.
+  CHECK(along / expected == Approx(1.0).margin(0.08));
+}

@@ -29,7 +29,7 @@ MotionField estimate(const Motion& motion, float windows, int calls) {
     const cv::Point2d place = in_full(x, y);
     return waves.at(place - static_cast<double>(windows) * motion(place));
   });
-  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .hold = 0.0, .rounds = 2});
   MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
   for (int i = 0; i < calls; ++i) {
     const MovedPair pair{before, after, 1.0F, windows};
@@ -99,7 +99,7 @@ TEST_CASE("pairs of different distances go together, in any order") {
   const MovedPair near{before, after, 1.0F, 1.0F};
   const MovedPair far{before, later, 1.0F, 3.0F};
   for (const auto& pairs : {std::array{near, far, near}, std::array{far, near, far}}) {
-    MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+    MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .hold = 0.0, .rounds = 2});
     MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
     for (int i = 0; i < 4; ++i) estimator.improve(pairs, field);
     CHECK(worst_error(field, [v](cv::Point2d) { return v; }) < 0.05);
@@ -121,7 +121,7 @@ TEST_CASE("pairs count by their weights, and without texture the motion is the n
   const cv::Mat1f before = image({0, 0});
   const cv::Mat1f after_one = image(one);
   const cv::Mat1f after_other = image(other);
-  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .hold = 0.0, .rounds = 2});
   const auto mean_of = [&](float weight_one, float weight_other) {
     MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
     const std::array pairs{MovedPair{before, after_one, weight_one, 1.0F},
@@ -138,7 +138,7 @@ TEST_CASE("pairs count by their weights, and without texture the motion is the n
 
 TEST_CASE("images of any size have a motion, and flat ones have none") {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(1, 40), cv::Size(33, 2), cv::Size(17, 35)}) {
-    MotionEstimator estimator(size, {.cell_px = kCell_px, .regularisation = 0.1, .rounds = 2});
+    MotionEstimator estimator(size, {.cell_px = kCell_px, .regularisation = 0.1, .hold = 0.0, .rounds = 2});
     const cv::Mat1f flat(half_of(size), 1.0F);
     MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
     const MovedPair pair{flat, flat, 1.0F, 1.0F};
@@ -154,7 +154,7 @@ TEST_CASE("a pair corrects the speed of the whole field, and nothing else of it"
   const cv::Mat1f before = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y)); });
   const cv::Mat1f after = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y) - v); });
   const MovedPair pair{before, after, 5.0F, 1.0F};
-  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .rounds = 2});
+  MotionEstimator estimator(kFull, {.cell_px = kCell_px, .regularisation = 0.01, .hold = 0.0, .rounds = 2});
   const auto corrected = [&](double speed, int calls) {
     const auto x = static_cast<float>(speed * v.x);
     const auto y = static_cast<float>(speed * v.y);
@@ -172,4 +172,30 @@ TEST_CASE("a pair corrects the speed of the whole field, and nothing else of it"
   // Not by more than a fifth or a quarter in one window.
   CHECK(corrected(3.0, 1) == Approx(2.4));
   CHECK(corrected(0.1, 1) == Approx(0.125));
+}
+
+TEST_CASE("what all cells share is taken at once, what is a cell's own is held") {
+  // The left half is faster.
+  const Motion motion = [](cv::Point2d at) { return cv::Point2d(at.x < 80.0 ? 1.0 : 0.5, 0.0); };
+  const auto spread_after_one = [&](double hold) {
+    const Waves waves(3, 16.0, 60.0);
+    const cv::Size half = half_of(kFull);
+    const cv::Mat1f before = image_of(half, [&](int x, int y) { return waves.at(in_full(x, y)); });
+    const cv::Mat1f after = image_of(half, [&](int x, int y) {
+      const cv::Point2d place = in_full(x, y);
+      return waves.at(place - motion(place));
+    });
+    MotionEstimator estimator(kFull,
+                              {.cell_px = kCell_px, .regularisation = 0.01, .hold = hold, .rounds = 1});
+    MotionField field{cv::Mat1f(estimator.cells().size(), 0.0F), cv::Mat1f(estimator.cells().size(), 0.0F)};
+    const MovedPair pair{before, after, 1.0F, 1.0F};
+    estimator.improve({&pair, 1}, field);
+    CHECK(cv::mean(field.x)[0] == Approx(0.75).margin(0.05));
+    return static_cast<double>(field.x(4, 4) - field.x(4, 5));
+  };
+  const double free = spread_after_one(0.0);
+  const double held = spread_after_one(100.0);
+  INFO(free << " " << held);
+  CHECK(free > 1.3 * held);
+  CHECK(held > 0.0);
 }
