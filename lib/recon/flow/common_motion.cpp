@@ -11,6 +11,7 @@ namespace {
 /// 1, x, y of a place: the three by which each component of the motion goes.
 using Place = std::array<double, 3>;
 constexpr int kTerms = 3;
+constexpr std::size_t kUnknowns = 6;
 
 Place place_of(int x, int y, cv::Size grid) {
   const double middle_x = 0.5 * (grid.width - 1);
@@ -23,7 +24,7 @@ Place place_of(int x, int y, cv::Size grid) {
 struct Normal {
   /// |p|^2 and |P|^2, to begin with.
   cv::Mat1d matrix{cv::Mat1d::eye(2 * kTerms, 2 * kTerms)};
-  std::vector<double> rhs = std::vector<double>(2 * kTerms, 0.0);
+  std::vector<double> rhs = std::vector<double>(kUnknowns, 0.0);
 
   void add(const Place& place, double xx, double xy, double yy, double x, double y) {
     for (int i = 0; i < kTerms; ++i) {
