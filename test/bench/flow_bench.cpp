@@ -187,7 +187,8 @@ void compare(esi::SensorSize sensor) {
          motion.correct_speed(pairs[1], warm, team);
        }},
       {"sign", 9 * 0.25, [&](const esi::RowTeam& team) { sign.take(half_a, field, team); }},
-      {"warp and accumulate", 13.0, [&](const esi::RowTeam& team) { model.take(b, field, cells, team); }},
+      {"warp and accumulate", 13.0,
+       [&](const esi::RowTeam& team) { model.take(b, 1.0, field, cells, team); }},
       {"right-hand side", 3.0, [&](const esi::RowTeam& team) { model.right_hand_side(rhs, team); }},
       // The residual, the coarse A, the correction from below, then a basis that is written and summed.
       {"solver", 6.0 + 3.0 + 6.0 + 6.0 + 3.0 + 2.0 * static_cast<double>(options.steps_full),

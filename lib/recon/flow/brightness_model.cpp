@@ -56,8 +56,10 @@ BrightnessModel::BrightnessModel(cv::Size size, const Options& options)
   operator_.mu = options.mu;
 }
 
-void BrightnessModel::take(const cv::Mat1f& b, const MotionField& field, const CellGrid& cells,
-                           const RowTeam& team) {
+void BrightnessModel::take(const cv::Mat1f& b, double duration, const MotionField& field,
+                           const CellGrid& cells, const RowTeam& team) {
+  memory_ = static_cast<float>(std::pow(options_.memory, duration));
+  weight_ = static_cast<float>(1.0 / duration);
   team.over_rows(log_intensity_.size(), [&](int begin, int end) {
     RowMotion motion(log_intensity_.size(), cells);
     std::vector<float> moved_b(motion.x.size());
@@ -82,8 +84,8 @@ void BrightnessModel::move_row(int y, const cv::Mat1f& b, RowMotion& motion, flo
   motion.lookup.sample(a_e_, moved_e_[y]);
   motion.lookup.place(y, vx, vy, 0.5F, 0.5F);
   motion.lookup.sample(b, moved_b);
-  accumulate(log_intensity_.cols - 1, vx, vy, moved_b, options_.memory, 1.0F / options_.memory_px,
-             options_.weight, operator_.dd[y], operator_.de[y], operator_.ee[y], moved_d_[y], moved_e_[y]);
+  accumulate(log_intensity_.cols - 1, vx, vy, moved_b, memory_, 1.0F / options_.memory_px, weight_,
+             operator_.dd[y], operator_.de[y], operator_.ee[y], moved_d_[y], moved_e_[y]);
 }
 
 void BrightnessModel::move_image(const MotionField& field, const CellGrid& cells, float share,

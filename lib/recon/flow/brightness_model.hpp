@@ -20,17 +20,16 @@ class BrightnessModel {
   struct Options {
     float eps;        ///< smoothness, px^2
     float mu;         ///< pull towards 0
-    float memory;     ///< what is left after a window, even without motion
+    double memory;    ///< what is left after 10 ms, even without motion
     float memory_px;  ///< ell: after this path half of it is forgotten
-    float weight;     ///< of a window
   };
 
   BrightnessModel(cv::Size size, const Options& options);
 
-  /// Takes a window of events b that moved by `field`:
-  ///   A <- lambda A + weight v v^T,   a <- lambda a(x - v) - weight v b(x - v/2),   L <- L(x - v),
-  ///   lambda = memory / (1 + |v| / memory_px)                                                     (5)
-  void take(const cv::Mat1f& b, const MotionField& field, const CellGrid& cells,
+  /// Takes a window of events b, D * 10 ms long, that moved by `field`:
+  ///   A <- lambda A + v v^T / D,   a <- lambda a(x - v) - v b(x - v/2) / D,   L <- L(x - v),
+  ///   lambda = memory^D / (1 + |v| / memory_px)                                                   (5)
+  void take(const cv::Mat1f& b, double duration, const MotionField& field, const CellGrid& cells,
             const RowTeam& team = kAlone);
 
   /// The problem's right-hand side: minus the divergence of a.
@@ -54,6 +53,7 @@ class BrightnessModel {
   void right_hand_side_row(int y, const float* none, cv::Mat1f& rhs) const;
 
   Options options_;
+  float memory_ = 1.0F, weight_ = 1.0F;  ///< memory^D and 1 / D of the window that is being taken
   MotionOperator operator_;
   cv::Mat1f a_d_, a_e_;  ///< a = (a_d + a_e, a_d - a_e): a . grad L = a_d D + a_e E
   cv::Mat1f log_intensity_;

@@ -17,10 +17,39 @@ constexpr std::int64_t kFirstWindows = 8;
 
 cv::Size cv_size(SensorSize size) { return {size.width_px, size.height_px}; }
 
+EventWindows windows_of(const EsiFlowOptions& options, SensorSize size) {
+  if (options.window == EsiFlowOptions::Window::time) return EventWindows::of_duration(options.window_us);
+  const double pixels = static_cast<double>(size.width_px) * size.height_px;
+  const double events = std::max(options.events_per_pixel * pixels, 1.0);
+  return EventWindows::of_count_within(static_cast<std::size_t>(events), options.window_us);
+}
+
+void add(const SmoothEvents& window, SmoothEvents& sum) {
+  sum.image += window.image;
+  sum.length += window.length;
+}
+
+/// How many times as long `now` is. Never more than 4 or less than a quarter: a few events of noise before
+/// the image begins to move say nothing of how far it will.
+double change(double before, double now) { return std::clamp(now / before, 0.25, 4.0); }
+
+/// Of two sums in a row, the first made as strong as if it were as long as the second. The motion between
+/// their middles is in units of that in a window of length `unit`.
+MovedPair pair_of(SmoothEvents& before, const SmoothEvents& after, double weight, double unit) {
+  const double times = change(before.length, after.length);
+  if (times != 1.0) before.image *= times;
+  const double apart = 0.5 * (1.0 / times + 1.0) * after.length;
+  return {before.image, after.image, static_cast<float>(weight), static_cast<float>(apart / unit)};
+}
+
 }  // namespace
 
 void EsiFlowOptions::declare(OptionTable& table) {
-  table.integer("window_us", window_us, {1000, 1'000'000}, "us", "events of so long are taken at once");
+  table.choice("window", window, {"events", "time"},
+               "what ends a window of events that are taken at once: their number, or the clock");
+  table.real("events_per_pixel", events_per_pixel, {0.001, 20.0}, "", "a window's events for each pixel");
+  table.integer("window_us", window_us, {1000, 1'000'000}, "us",
+                "how long a window of time lasts, and at most one of events");
   table.toggle("balance", balance, "let ON and OFF events weigh by how rare they are: thresholds differ");
   table.real("flow_blur_px", flow_blur_px, {0.1, 20.0}, "px",
              "deviation of a Gaussian before motion is estimated, at half resolution");
@@ -48,12 +77,10 @@ void EsiFlowOptions::declare(OptionTable& table) {
 }
 
 BrightnessModel::Options EsiFlowOptions::model() const {
-  const double share = static_cast<double>(window_us) / kReferenceWindow_us;
   return {.eps = static_cast<float>(eps),
           .mu = static_cast<float>(mu),
-          .memory = static_cast<float>(std::pow(memory, share)),
-          .memory_px = static_cast<float>(memory_px),
-          .weight = static_cast<float>(1.0 / share)};
+          .memory = memory,
+          .memory_px = static_cast<float>(memory_px)};
 }
 
 MultilevelSolver::Options EsiFlowOptions::solver() const {
@@ -65,7 +92,7 @@ MultilevelSolver::Options EsiFlowOptions::solver() const {
 
 EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
     : options_(options),
-      windows_(EventWindows::of_duration(options.window_us)),
+      windows_(windows_of(options, size)),
       event_image_(size, options.balance),
       smooth_(options.flow_blur_px),
       motion_(cv_size(size), {static_cast<double>(options.cell_px), options.flow_regularisation,
@@ -78,7 +105,6 @@ EsiFlow::EsiFlow(const EsiFlowOptions& options, SensorSize size)
 
 void EsiFlow::take(std::span<const Event> events, std::span<const float> weights) {
   windows_.add(events, weights, step());
-  if (!events.empty()) last_event_us_ = events.back().t_us;
 }
 
 EventWindows::Take EsiFlow::step() {
@@ -88,22 +114,17 @@ EventWindows::Take EsiFlow::step() {
 
 void EsiFlow::take_window(std::span<const Event> window, std::span<const float> weights) {
   const auto shift = team_.begin_shift();
-  const std::int64_t index = windows_.index_of(window.front().t_us);
+  const Interval now = *windows_.last();
+  const auto duration_us = static_cast<double>(std::max<std::int64_t>(now.duration_us(), 1));
   const cv::Mat1f& b = event_image_.of(window, weights);
-  smooth_(b, events_, team_);
-  if (last_window_ && index != *last_window_ + 1) {
-    // Nothing has happened since: nothing moved.
-    events_before_.setTo(0.0F);
-    field_.x.setTo(0.0F);
-    field_.y.setTo(0.0F);
-  }
-  last_window_ = index;
-  const bool is_first = windows_seen_ < kFirstWindows;
-  is_first ? estimate_first_motion() : estimate_motion();
-  sign_.take(events_, field_, team_);
-  if (!is_first) turn_reversed_cells();
-  events_.copyTo(events_before_);
-  model_.take(b, field_, cells_, team_);
+  smooth_(b, events_.image, team_);
+  events_.length = length_of(window.size(), duration_us);
+  if (last_window_) expect_motion(now);
+  last_window_ = now;
+  find_motion();
+  events_.image.copyTo(events_before_.image);
+  events_before_.length = events_.length;
+  model_.take(b, duration_us / kReferenceWindow_us, field_, cells_, team_);
   model_.right_hand_side(rhs_, team_);
   const bool is_early = windows_seen_ < options_.first_windows;
   solver_.solve(
@@ -113,29 +134,53 @@ void EsiFlow::take_window(std::span<const Event> window, std::span<const float> 
   ++windows_seen_;
 }
 
+double EsiFlow::length_of(std::size_t events, double duration_us) const {
+  return options_.window == EsiFlowOptions::Window::time ? duration_us : static_cast<double>(events);
+}
+
+void EsiFlow::expect_motion(const Interval& next) {
+  if (next.begin_us != last_window_->end_us) {
+    // Nothing has happened since: nothing moved.
+    field_.x.setTo(0.0F);
+    field_.y.setTo(0.0F);
+    events_before_.image.setTo(0.0F);
+    events_before_.length = events_.length;
+    return;
+  }
+  const double times = change(events_before_.length, events_.length);
+  if (times == 1.0) return;
+  field_.x *= times;
+  field_.y *= times;
+}
+
+void EsiFlow::find_motion() {
+  const bool is_first = windows_seen_ < kFirstWindows;
+  is_first ? estimate_first_motion() : estimate_motion();
+  sign_.take(events_.image, field_, team_);
+  if (!is_first) turn_reversed_cells();
+}
+
 void EsiFlow::estimate_first_motion() {
-  first_events_.push_back(events_.clone());
+  first_events_.push_back({events_.image.clone(), events_.length});
   const std::size_t half = first_events_.size() / 2;
   if (half == 0) return;
-  cv::Mat1f before(events_.size(), 0.0F);
-  cv::Mat1f after(events_.size(), 0.0F);
+  SmoothEvents before{cv::Mat1f(events_.image.size(), 0.0F)};
+  SmoothEvents after{cv::Mat1f(events_.image.size(), 0.0F)};
   const auto last = first_events_.end();
   for (std::size_t i = 1; i <= half; ++i) {
-    after += *(last - static_cast<std::ptrdiff_t>(i));
-    before += *(last - static_cast<std::ptrdiff_t>(half + i));
+    add(*(last - static_cast<std::ptrdiff_t>(i)), after);
+    add(*(last - static_cast<std::ptrdiff_t>(half + i)), before);
   }
-  const MovedPair pair{before, after, static_cast<float>(options_.event_pair_weight),
-                       static_cast<float>(half)};
+  const MovedPair pair = pair_of(before, after, options_.event_pair_weight, events_.length);
   motion_.improve({&pair, 1}, field_, team_);
 }
 
 void EsiFlow::estimate_motion() {
   first_events_.clear();
   smooth_(model_.log_intensity(), intensity_before_, team_);
-  cv::add(intensity_before_, events_, intensity_after_);
-  const std::array pairs{
-      MovedPair{intensity_before_, intensity_after_, 1.0F, 1.0F},
-      MovedPair{events_before_, events_, static_cast<float>(options_.event_pair_weight), 1.0F}};
+  cv::add(intensity_before_, events_.image, intensity_after_);
+  const std::array pairs{MovedPair{intensity_before_, intensity_after_, 1.0F, 1.0F},
+                         pair_of(events_before_, events_, options_.event_pair_weight, events_.length)};
   motion_.improve(pairs, field_, team_);
   motion_.correct_speed(pairs.back(), field_, team_);
 }
@@ -150,19 +195,17 @@ void EsiFlow::turn_reversed_cells() {
 }
 
 const cv::Mat1f& EsiFlow::image_at(std::int64_t t_us) {
-  const std::int64_t open = windows_.index_of(t_us);
-  const std::int64_t passed_us = t_us - open * options_.window_us;
-  const bool goes_on =
-      last_event_us_ && windows_.index_of(*last_event_us_) == open && last_window_ == open - 1;
-  if (!goes_on || passed_us == 0) return model_.log_intensity();
-  const auto share =
-      static_cast<float>(static_cast<double>(passed_us) / static_cast<double>(options_.window_us));
-  model_.move_image(field_, cells_, share, moved_on_, team_);
+  const bool goes_on = last_window_ && windows_.open_begin_us() == last_window_->end_us;
+  if (!goes_on || t_us <= last_window_->end_us) return model_.log_intensity();
+  const auto passed_us = static_cast<double>(t_us - last_window_->end_us);
+  const double share = std::min(length_of(windows_.open_events(), passed_us) / events_before_.length, 1.0);
+  model_.move_image(field_, cells_, static_cast<float>(share), moved_on_, team_);
   return moved_on_;
 }
 
 const cv::Mat2f* EsiFlow::motion() {
-  const auto per_s = static_cast<float>(1e6 / static_cast<double>(options_.window_us));
+  const std::int64_t window_us = last_window_ ? last_window_->duration_us() : options_.window_us;
+  const auto per_s = static_cast<float>(1e6 / static_cast<double>(std::max<std::int64_t>(window_us, 1)));
   motion_px_s_.create(model_.log_intensity().size());
   std::vector<float> x(static_cast<std::size_t>(motion_px_s_.cols));
   std::vector<float> y(x.size());

@@ -22,6 +22,10 @@ namespace esi {
 
 /// Reconstruction that uses motion; docs/esi_flow.md has the equations that are numbered here.
 struct EsiFlowOptions {
+  enum class Window { events, time };
+
+  Window window = Window::time;
+  double events_per_pixel = 0.3;
   std::int64_t window_us = 10'000;
   bool balance = true;
   double flow_blur_px = 1.2;
@@ -49,6 +53,14 @@ struct EsiFlowOptions {
   MultilevelSolver::Options solver() const;
 };
 
+/// Smooth event images, at half resolution, of one window or the sum of some in a row. How far the image
+/// moves meanwhile, and how strong its events are, is taken to grow with `length`: with time in windows of
+/// time, and with events in windows of events, since an image that moves twice as fast makes twice as many.
+struct SmoothEvents {
+  cv::Mat1f image;
+  double length = 0.0;
+};
+
 class EsiFlow final : public Reconstructor {
  public:
   EsiFlow(const EsiFlowOptions& options, SensorSize size);
@@ -61,6 +73,11 @@ class EsiFlow final : public Reconstructor {
   void take(std::span<const Event> events, std::span<const float> weights) override;
   EventWindows::Take step();
   void take_window(std::span<const Event> window, std::span<const float> weights);
+  /// Turns the last window's motion into what it lets expect of the next one.
+  void expect_motion(const Interval& next);
+  double length_of(std::size_t events, double duration_us) const;
+  /// The window's motion, from what is expected of it on.
+  void find_motion();
   void estimate_motion();
   void estimate_first_motion();
   /// Where the motion's sign is wrong, so is the image's.
@@ -80,13 +97,13 @@ class EsiFlow final : public Reconstructor {
   MultilevelSolver solver_;
   MotionField field_;
   std::int64_t windows_seen_ = 0;
-  std::vector<cv::Mat1f> first_events_;  ///< smooth event images, until the flow has started
-  cv::Mat1f events_, events_before_, intensity_before_, intensity_after_;  ///< smooth, half resolution
+  std::vector<SmoothEvents> first_events_;  ///< of the windows so far, until the flow has started
+  SmoothEvents events_, events_before_;
+  cv::Mat1f intensity_before_, intensity_after_;  ///< smooth, half resolution
   cv::Mat1f rhs_;
   cv::Mat1f moved_on_;
   cv::Mat2f motion_px_s_;
-  std::optional<std::int64_t> last_event_us_;
-  std::optional<std::int64_t> last_window_;
+  std::optional<Interval> last_window_;
 };
 
 }  // namespace esi

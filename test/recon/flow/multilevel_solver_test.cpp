@@ -41,7 +41,7 @@ struct MovedTexture {
       });
       const MotionField field{cv::Mat1f(cells.size(), static_cast<float>(v.x)),
                               cv::Mat1f(cells.size(), static_cast<float>(v.y))};
-      model.take(b, field, cells);
+      model.take(b, 1.0, field, cells);
       model.right_hand_side(rhs);
       solver.solve(model.normal_operator(), rhs, static_cast<int>(options.cycles), model.log_intensity());
       at += v;
