@@ -19,7 +19,8 @@ constexpr int kPiecesPerThread = 2;
 class ShortWait {
  public:
   void go_on() {
-    if (++turns_ > kTurns) return std::this_thread::yield();
+    if (turns_ == kTurns) return std::this_thread::yield();
+    ++turns_;
 #if defined(__x86_64__)
     __builtin_ia32_pause();
 #endif
@@ -82,8 +83,14 @@ struct RowTeam::Board {
 
 RowTeam::Shift RowTeam::begin_shift() {
   if (!workers_ || workers_->workers() == 0 || board_) return Shift(nullptr);
-  board_ = std::make_shared<Board>();
-  for (std::size_t i = 0; i < workers_->workers(); ++i) workers_->submit([board = board_] { board->help(); });
+  auto board = std::make_shared<Board>();
+  try {
+    for (std::size_t i = 0; i < workers_->workers(); ++i) workers_->submit([board] { board->help(); });
+  } catch (...) {
+    board->is_open = false;
+    throw;
+  }
+  board_ = std::move(board);
   return Shift(this);
 }
 

@@ -17,6 +17,7 @@
 #include "esi/recon/flow/brightness_model.hpp"
 #include "esi/recon/flow/esi_flow.hpp"
 #include "esi/recon/flow/motion_sign.hpp"
+#include "recon/flow/flow_configs.hpp"
 #include "timing.hpp"
 
 namespace {
@@ -103,10 +104,10 @@ void measure_by_clock(const std::vector<Part>& parts) {
 /// The whole method, frame after frame.
 class Frames {
  public:
-  Frames(esi::SensorSize sensor, std::shared_ptr<esi::WorkerPool> workers)
-      : sensor_(sensor), flow_({}, sensor) {
+  Frames(const esi::EsiFlowOptions& options, esi::SensorSize sensor, std::shared_ptr<esi::WorkerPool> workers)
+      : sensor_(sensor), flow_(options, sensor) {
     flow_.use_workers(std::move(workers));
-    for (std::int64_t i = 0; i < esi::EsiFlowOptions().first_windows; ++i) next();
+    for (std::int64_t i = 0; i < options.first_windows; ++i) next();
   }
 
   /// Processor time of this thread, and time on the clock.
@@ -131,9 +132,10 @@ class Frames {
 };
 
 /// In turn, ten frames with one thread and ten with two, so that each finds its own data in cache.
-void measure_frames(esi::SensorSize sensor) {
-  Frames one(sensor, nullptr);
-  Frames two(sensor, one_worker());
+void measure_frames(const std::string& config, esi::SensorSize sensor) {
+  const esi::EsiFlowOptions options = esi::test::flow_options_of(config);
+  Frames one(options, sensor, nullptr);
+  Frames two(options, sensor, one_worker());
   std::vector<double> cpu, clock, clock_two;
   for (int i = 0; i < 2 * kRounds; i += 10) {
     for (int k = 0; k < 10; ++k) {
@@ -143,7 +145,7 @@ void measure_frames(esi::SensorSize sensor) {
     }
     for (int k = 0; k < 10; ++k) clock_two.push_back(two.next().second);
   }
-  print_clock("a whole frame", clock, clock_two);
+  print_clock("a frame of " + config, clock, clock_two);
   fmt::print("  {:28} {:8.3f} ms   {:8.3f} ms   {:8.3f} ms of processor time with 1 thread\n", "its median",
              1e3 * esi::bench::median(clock), 1e3 * esi::bench::median(clock_two),
              1e3 * esi::bench::median(cpu));
@@ -157,7 +159,8 @@ void compare(esi::SensorSize sensor) {
   const esi::EsiFlowOptions options;
   esi::EventImage event_image(sensor, true);
   esi::SmoothHalf smooth(options.flow_blur_px);
-  esi::MotionEstimator motion(size, {16.0, 0.1, options.flow_hold, static_cast<int>(options.flow_rounds)});
+  esi::MotionEstimator motion(
+      size, {16.0, options.flow_regularisation, options.flow_hold, static_cast<int>(options.flow_rounds)});
   esi::CellGrid cells(size, 16.0);
   esi::BrightnessModel model(size, options.model());
   esi::MultilevelSolver solver(size, options.solver());
@@ -199,7 +202,7 @@ void compare(esi::SensorSize sensor) {
   measure(parts, size, gb_s);
   fmt::print("  on the clock, at least           1 thread     2 threads   ratio\n");
   measure_by_clock(parts);
-  measure_frames(sensor);
+  for (const char* config : {"esi-flow", "esi-flow-fast"}) measure_frames(config, sensor);
 }
 
 }  // namespace

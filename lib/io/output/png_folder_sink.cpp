@@ -29,6 +29,11 @@ PngFolderSink::PngFolderSink(const std::filesystem::path& folder, const SinkOpti
       png_level_(static_cast<int>(options.png_compression)),
       workers_(context.workers) {}
 
+PngFolderSink::~PngFolderSink() {
+  // Once the folder's lock is gone, somebody else may write there.
+  for (const Pending& pending : pending_) pending.written.wait();
+}
+
 void PngFolderSink::write(const Frame& frame) {
   require_no_failure();
   require_next_frame(frame, frames_taken_, size_);

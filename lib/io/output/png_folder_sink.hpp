@@ -17,6 +17,7 @@ namespace esi {
 class PngFolderSink final : public FrameSink {
  public:
   PngFolderSink(const std::filesystem::path& folder, const SinkOptions& options, const SinkContext& context);
+  ~PngFolderSink() override;
 
   void write(const Frame& frame) override;
   void finish(const std::string& manifest) override;

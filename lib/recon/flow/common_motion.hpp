@@ -16,8 +16,8 @@ struct MotionField {
 
 /// Adds one affine motion to all cells, the best for them together:
 ///   v += p + P x,   (p, P) = argmin sum d^T T d - 2 d . rhs + |p|^2 + |P|^2,   d = p + P x       (2)
-/// x goes from -1 to 1 over the grid's width, and as far as that over its height. Most of what changes from
-/// window to window is the camera's turning, which all cells share.
+/// x is 0 in the grid's middle and goes from -1 to 1 over its width (of three columns or more); y has the
+/// same unit. Most of what changes from window to window is the camera's turning, which all cells share.
 void add_common_motion(const CellSums& sums, MotionField& field);
 
 }  // namespace esi

@@ -60,7 +60,8 @@ void EsiFlowOptions::declare(OptionTable& table) {
              "how much two event images count for the motion, beside the reconstruction");
   table.real("flow_hold", flow_hold, {0.0, 1e6}, "",
              "how much a cell's motion stays as it was, but for what all cells share");
-  table.integer("flow_rounds", flow_rounds, {1, 20}, "", "how often a window's motion is improved");
+  table.integer("flow_rounds", flow_rounds, {1, 20}, "",
+                "how often each cell's motion is improved in a window");
   table.real("memory", memory, {0.0, 1.0}, "", "what is left of the past after 10 ms without motion");
   table.real("memory_px", memory_px, {0.01, 1e6}, "px", "half of the past is forgotten over this path");
   table.real("eps", eps, {1e-6, 1e3}, "px^2", "smoothness of the image");
@@ -145,6 +146,7 @@ void EsiFlow::expect_motion(const Interval& next) {
     field_.y.setTo(0.0F);
     events_before_.image.setTo(0.0F);
     events_before_.length = events_.length;
+    first_events_.clear();
     return;
   }
   const double times = change(events_before_.length, events_.length);
@@ -155,7 +157,11 @@ void EsiFlow::expect_motion(const Interval& next) {
 
 void EsiFlow::find_motion() {
   const bool is_first = windows_seen_ < kFirstWindows;
-  is_first ? estimate_first_motion() : estimate_motion();
+  if (is_first) {
+    estimate_first_motion();
+  } else {
+    estimate_motion();
+  }
   sign_.take(events_.image, field_, team_);
   if (!is_first) turn_reversed_cells();
 }

@@ -14,6 +14,8 @@ namespace {
 constexpr float kHalf = 2.0F;
 /// Of a window's motion: nothing that is faster can be followed.
 constexpr float kLargest_px = 64.0F;
+/// Of an equation (2a) that knows one direction only, to the rounding of floats: without hold there may be.
+constexpr float kSingular = 1e-6F;
 /// Factors by which a window's speed is corrected at most.
 constexpr double kSlowest = 0.8;
 constexpr double kFastest = 1.25;
@@ -196,6 +198,7 @@ void MotionEstimator::step(MotionField& field) {
     const float x = rx(i) + reg * (mean_x(i) - field.x(i));
     const float y = ry(i) + reg * (mean_y(i) - field.y(i));
     const float determinant = a * d - b * b;
+    if (determinant <= kSingular * a * d) continue;
     field.x(i) = std::clamp(field.x(i) + (d * x - b * y) / determinant, -kLargest_px, kLargest_px);
     field.y(i) = std::clamp(field.y(i) + (a * y - b * x) / determinant, -kLargest_px, kLargest_px);
   }

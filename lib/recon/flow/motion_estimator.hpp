@@ -40,12 +40,12 @@ class MotionEstimator {
   /// where, with m the motion-compensated mean of a pair's images and e their difference,
   ///   T = sum weight grad m grad m^T,  rhs = -sum weight grad m e                                (3)
   /// over a cell, smoothed by [1 2 1] twice, and mean T is half of the mean trace; then by a median of 3x3
-  /// cells. At most 64 px.
+  /// cells. No more than 64 px come of it.
   void improve(std::span<const MovedPair> pairs, MotionField& field, const RowTeam& team = kAlone);
 
   /// Makes the whole field faster or slower, as one of the pairs says alone, v its motion:
   ///   v += s v / 2,   s = sum v . rhs / (1 + sum v . T v)                                          (10)
-  /// over all cells, within -0.2 and 0.25. With many pixels there is little noise in s.
+  /// over all cells, and s / 2 within -0.2 and 0.25. With many pixels there is little noise in s.
   void correct_speed(const MovedPair& pair, MotionField& field, const RowTeam& team = kAlone);
 
  private:

@@ -129,7 +129,8 @@ cv::Mat1f MotionSign::signs(const MotionField& field) const {
   bool any = false;
   for (int i = 0; i < static_cast<int>(marks.total()); ++i) {
     const float more = against_energy_(i) - along_energy_(i);
-    if (more <= 0.0F || std::hypot(field.x(i), field.y(i)) >= kSlow_px) continue;
+    const float speed2 = field.x(i) * field.x(i) + field.y(i) * field.y(i);
+    if (more <= 0.0F || speed2 >= kSlow_px * kSlow_px) continue;
     const bool clearly = more > kClearlyMore * (against_energy_(i) + along_energy_(i));
     marks(i) = clearly ? 1 : 2;
     any |= clearly;

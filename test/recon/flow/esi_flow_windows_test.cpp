@@ -157,6 +157,19 @@ TEST_CASE("after a pause nothing is left of the motion before it") {
   }
 }
 
+TEST_CASE("a pause among the first windows ends their motion, too") {
+  std::vector<Event> events = moving_events();
+  std::erase_if(events, [](const Event& event) { return event.t_us >= 40'000 && event.t_us < 300'000; });
+  EsiFlow flow({}, kSize);
+  std::size_t given = 0;
+  flow.process(events_until(events, given, 40'000));
+  levels_at(flow, 40'000);
+  CHECK(cv::norm(*flow.motion(), cv::NORM_INF) > 10.0);
+  flow.process(events_until(events, given, 310'000));
+  levels_at(flow, 310'000);
+  CHECK(cv::norm(*flow.motion(), cv::NORM_INF) == 0.0);
+}
+
 TEST_CASE("a few events after a pause don't move the image") {
   std::vector<Event> events = events_of_pan_and_back();
   std::erase_if(events, [](const Event& event) { return event.t_us >= 400'000; });

@@ -1,29 +1,18 @@
 #include "esi/recon/flow/multilevel_solver.hpp"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "esi/recon/flow/brightness_model.hpp"
-#include "esi/recon/flow/esi_flow.hpp"
+#include "recon/flow/flow_configs.hpp"
 #include "recon/flow/least_squares_reference.hpp"
 #include "recon/flow/random_problems.hpp"
 #include "recon/flow/textures.hpp"
-#include "support/shared_data.hpp"
-#include "support/temp_folder.hpp"
 
 using namespace esi;
 using namespace esi::test;
 
 namespace {
-
-/// The options of a config file for esi-flow.
-EsiFlowOptions options_of(const std::string& config) {
-  EsiFlowOptions options;
-  const auto path = source_dir() / "configs" / "recon" / (config + ".json");
-  table_of(options).set_json(nlohmann::json::parse(content_of(path.string()))["set"]);
-  return options;
-}
 
 /// As after `windows` of a texture that moves along a slow curve, each solved with `options`; the camera sees
 /// all that the model assumes.
@@ -58,7 +47,7 @@ struct MovedTexture {
 }  // namespace
 
 TEST_CASE("with the quality config the solution leaves a thousandth of the residual") {
-  MovedTexture moved(options_of("esi-flow-quality"), 20);
+  MovedTexture moved(flow_options_of("esi-flow-quality"), 20);
   const LeastSquaresReference reference(moved.model.normal_operator());
   CHECK(reference.relative_residual(moved.model.log_intensity(), moved.rhs) <= 1e-3);
 }
@@ -66,7 +55,7 @@ TEST_CASE("with the quality config the solution leaves a thousandth of the resid
 TEST_CASE("with each config the solution is near the exact one, and that near the truth") {
   for (const char* const config : {"esi-flow", "esi-flow-fast", "esi-flow-quality"}) {
     INFO(config);
-    MovedTexture moved(options_of(config), 20);
+    MovedTexture moved(flow_options_of(config), 20);
     const LeastSquaresReference reference(moved.model.normal_operator());
     cv::Mat1d rhs;
     moved.rhs.convertTo(rhs, CV_64F);
