@@ -12,7 +12,6 @@
 using namespace esi::test;
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
-using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
 using nlohmann::json;
 
@@ -126,7 +125,7 @@ TEST_CASE("frames go down a pipe as YUV4MPEG2") {
   CHECK(result.exit_code == 0);
   const std::string header = "YUV4MPEG2 W12 H9 F100:1 Ip A1:1 Cmono\n";
   CHECK_THAT(result.out, StartsWith(header + "FRAME\n"));
-  CHECK(result.out.size() == header.size() + 4 * (6 + 12 * 9));
+  CHECK(result.out.size() == header.size() + 4 * std::size_t{6 + 12 * 9});
 
   const auto closed =
       run_shell(quoted(tool("esi-recon")) + " " + quoted(recording) +

@@ -29,6 +29,7 @@ double copy_gb_s(cv::Size size) {
   const cv::Mat1f from(size, 1.0F);
   cv::Mat1f to(size, 0.0F);
   std::vector<double> times;
+  times.reserve(kRounds);
   for (int i = 0; i < kRounds; ++i) {
     times.push_back(esi::bench::seconds([&] {
       for (int k = 0; k < 10; ++k) from.copyTo(to);

@@ -36,6 +36,7 @@ struct Collected {
 
 std::vector<Event> events_at(const std::vector<std::int64_t>& times_us) {
   std::vector<Event> events;
+  events.reserve(times_us.size());
   for (const std::int64_t t_us : times_us) events.push_back({t_us, 0, 0, true});
   return events;
 }

@@ -34,6 +34,7 @@ cv::Mat1d gram_of(const std::vector<KrylovProducts>& products) {
 
 std::vector<float> least_energy_factors(const std::vector<KrylovProducts>& products) {
   std::vector<double> rhs;
+  rhs.reserve(products.size());
   for (const KrylovProducts& of : products) rhs.push_back(of.residual);
   const std::vector<double> factors = solve_small(gram_of(products), rhs);
   return {factors.begin(), factors.end()};
