@@ -7,6 +7,9 @@
 
 namespace esi {
 
+/// Pixels of the full resolution along the side of one of the half.
+constexpr float kHalf = 2.0F;
+
 /// Half the sides, rounded up.
 inline cv::Size half_of(cv::Size size) { return {(size.width + 1) / 2, (size.height + 1) / 2}; }
 

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "esi/recon/flow/bilinear_row.hpp"
 #include "esi/recon/flow/cell_smoothing.hpp"
+#include "esi/recon/flow/half_size.hpp"
+#include "esi/recon/flow/row_motion.hpp"
 #include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {
 
-/// Pixels of the full resolution in one of the half.
-constexpr float kHalf = 2.0F;
 /// Of a window's motion: nothing that is faster can be followed.
 constexpr float kLargest_px = 64.0F;
 /// Of an equation (2a) that knows one direction only, to the rounding of floats: without hold there may be.
@@ -67,25 +66,21 @@ struct MotionEstimator::Compared {
 
 /// What is needed while rows are gone over.
 struct MotionEstimator::Strip {
-  Strip(cv::Size half, const CellGrid& over, std::size_t pairs) : cells(over), lookup(half) {
-    const auto cols = static_cast<std::size_t>(half.width);
-    for (auto* row : {&vx, &vy, &moved}) row->resize(cols);
-    for (auto& column : columns) column.resize(cols);
+  Strip(cv::Size half, const CellGrid& cells, std::size_t pairs)
+      : motion(half, cells), moved(motion.x.size()) {
+    for (auto& column : columns) column.resize(moved.size());
     for (std::size_t i = 0; i < pairs; ++i)
       compared.push_back({cv::Mat1f(3, half.width), cv::Mat1f(3, half.width)});
   }
 
-  CellGrid cells;
-  BilinearRow lookup;
+  RowMotion motion;
+  std::vector<float> moved;
   std::vector<Compared> compared;
   std::array<std::vector<float>, 5> columns;  ///< the sums of one row of cells, by pixel column
-  std::vector<float> vx, vy, moved;
 };
 
 MotionEstimator::MotionEstimator(cv::Size full, const Options& options)
-    : options_(options),
-      half_((full.width + 1) / 2, (full.height + 1) / 2),
-      cells_(half_, options.cell_px / static_cast<double>(kHalf)) {
+    : options_(options), half_(half_of(full)), cells_(half_, options.cell_px / static_cast<double>(kHalf)) {
   for (cv::Mat1f& sum : sums_) sum.create(cells_.size());
   for (int x = 0; x < half_.width; ++x) column_cells_.push_back(cells_.cell_of(x));
   for (int y = 0; y < half_.height; ++y)
@@ -156,12 +151,8 @@ void MotionEstimator::compensate_row(std::span<const MovedPair> pairs, const Mot
                                      Strip& strip) const {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const MovedPair& pair = pairs[i];
-    if (i == 0 || pair.windows != pairs[i - 1].windows) {
-      strip.cells.interpolate_row(field.x, y, pair.windows / kHalf, strip.vx.data());
-      strip.cells.interpolate_row(field.y, y, pair.windows / kHalf, strip.vy.data());
-      strip.lookup.place(y, strip.vx.data(), strip.vy.data(), 1.0F);
-    }
-    strip.lookup.sample(pair.before, strip.moved.data());
+    if (i == 0 || pair.windows != pairs[i - 1].windows) strip.motion.look_up(field, y, pair.windows / kHalf);
+    strip.motion.lookup.sample(pair.before, strip.moved.data());
     mean_and_difference(half_.width, strip.moved.data(), pair.after[y], strip.compared[i].mean[y % 3],
                         strip.compared[i].difference[y % 3]);
   }

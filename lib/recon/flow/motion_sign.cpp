@@ -4,14 +4,13 @@
 #include <opencv2/core.hpp>
 
 #include "esi/recon/flow/cell_smoothing.hpp"
+#include "esi/recon/flow/half_size.hpp"
 #include "esi/recon/flow/row_motion.hpp"
 #include "esi/recon/simd.hpp"
 
 namespace esi {
 namespace {
 
-/// Pixels of the full resolution in one of the half.
-constexpr float kHalf = 2.0F;
 /// Half of what is piled up is forgotten over this path, of the full resolution. Longer than that of the
 /// image, which can follow a wrong motion for a pixel.
 constexpr float kMemory_px = 6.0F;

@@ -5,7 +5,7 @@
 
 #include "esi/recon/flow/bilinear_row.hpp"
 #include "esi/recon/flow/cell_grid.hpp"
-#include "esi/recon/flow/motion_estimator.hpp"
+#include "esi/recon/flow/common_motion.hpp"
 
 namespace esi {
 
